@@ -1,0 +1,132 @@
+// The world: owns the bodies and the buffers of every stage, and steps them.
+#pragma once
+
+#include <memory>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "pfx/base_level/collision/contact_manifold.h"
+#include "pfx/base_level/collision/pair.h"
+#include "pfx/base_level/rigid_body/rigid_body.h"
+#include "pfx/base_level/rigid_body/rigid_state.h"
+#include "pfx/base_level/shape/collidable.h"
+
+namespace pfx {
+
+// Which stages a world runs and what it keeps from step to step.
+enum class Pipeline : uint8_t {
+  Simple,  // pairs and contacts are made anew in every step; nothing is remembered
+  Stable,  // pairs, contacts and accumulated impulses are carried from step to step
+};
+
+struct WorldDef {
+  Vec3 gravity = Vec3(0.0f, -9.8f, 0.0f);  // m/s^2
+  Pipeline pipeline = Pipeline::Stable;
+  int substeps = 4;          // solver sub-steps a step, >= 1; error of contacts and joints falls with its square, cost
+                             // of the solver rises in proportion
+  int workers = 1;           // threads, the caller included; the result is the same for any number
+  bool sleeping = false;     // islands at rest are put to sleep
+  float sleep_velocity = 0.1f;   // m/s and rad/s
+  uint32_t sleep_steps = 180;    // steps below sleep_velocity before an island sleeps
+  Vec3 center = Vec3::Zero();              // m, of the world box
+  Vec3 extent = Vec3::Constant(500.0f);    // m, half extent of the world box
+};
+
+struct BodyDef {
+  std::string name;                      // for inspectors and files; need not be unique
+  Transform pose;                        // of the centre of mass
+  Vec3 linear_velocity = Vec3::Zero();   // m/s
+  Vec3 angular_velocity = Vec3::Zero();  // rad/s, world axes
+  MotionType motion_type = MotionType::Active;
+  std::vector<Shape> shapes;             // at least one; offsets are relative to the centre of mass
+  float mass = 1.0f;                     // kg
+  // kg m^2, body axes. Zero: computed from the shapes with uniform density scaled to `mass`.
+  Mat3 inertia = Mat3::Zero();
+  float restitution = 0.2f;
+  float friction = 0.6f;
+  float linear_damping = 0.0f;           // 1/s
+  float angular_damping = 0.0f;          // 1/s
+  float rolling_resistance = 0.0f;       // m
+  float gravity_scale = 1.0f;
+  uint32_t filter_self = 0xffffffffu;
+  uint32_t filter_target = 0xffffffffu;
+};
+
+// Names a body; stays invalid after the body was removed, even when its slot is used again. Zero is null.
+struct BodyId {
+  uint32_t index = 0;
+  uint32_t generation = 0;
+  explicit operator bool() const { return generation != 0; }
+  bool operator==(const BodyId&) const = default;
+};
+
+struct StageTime {
+  const char* name;
+  double milliseconds;  // in the last step
+};
+
+// A set of awake bodies linked by contacts and joints, or one that sleeps together.
+struct IslandView {
+  std::span<const uint32_t> bodies;    // body indices, ascending
+  std::span<const uint32_t> contacts;  // indices into contactPairs()
+  bool asleep;
+  float sleep_timer;                   // s below the sleep velocity
+};
+
+struct WorldCounts {
+  uint32_t bodies = 0, awake = 0, pairs = 0, touching_pairs = 0, contact_points = 0, islands = 0, joints = 0;
+};
+
+class World {
+ public:
+  explicit World(const WorldDef& def = {});
+  ~World();
+  World(World&&) noexcept;
+  World& operator=(World&&) noexcept;
+
+  const WorldDef& def() const;
+
+  // Adds a body. Throws std::invalid_argument, naming the body and the field, for input that is not finite, has no
+  // shape, or a mass that is not positive.
+  BodyId addBody(const BodyDef& def);
+  void removeBody(BodyId id);
+  bool isValid(BodyId id) const;
+  BodyId bodyId(uint32_t index) const;
+
+  // Advances by dt seconds (>= 0). Throws std::invalid_argument when dt is negative or not finite.
+  void step(float dt);
+  uint64_t stepCount() const;
+
+  // Arrays by body index; removed bodies are Fixed, have no shape and lie outside the world.
+  std::span<const RigidState> states() const;
+  std::span<const RigidBody> bodies() const;
+  std::span<const Collidable> collidables() const;
+  std::string_view name(uint32_t index) const;
+
+  // Mutable access between steps. Wakes the island of the body.
+  RigidState& state(BodyId id);
+  RigidBody& body(BodyId id);
+
+  // Moves a Keyframe body: it reaches `pose` at the end of the next step of dt seconds.
+  void moveKeyframe(BodyId id, const Transform& pose, float dt);
+
+  // Pairs whose bounds met in the last step, by key; contact_id + k (k < count) indexes manifolds().
+  std::span<const Pair> contactPairs() const;
+  std::span<const ContactManifold> manifolds(const Pair& pair) const;
+
+  uint32_t numIslands() const;
+  IslandView island(uint32_t index) const;
+
+  WorldCounts counts() const;
+  std::span<const StageTime> stageTimes() const;             // of the last step, in order
+  std::vector<std::string_view> stages() const;              // that this world's content makes it run, in order
+  uint64_t stateHash() const;                                // of pose and velocity of all bodies, bit-exact
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace pfx

@@ -1,0 +1,48 @@
+// A pool of persistent workers that share out ranges of indices.
+//
+// Properties:
+//   1. The caller works too: TaskManager(n) runs on n threads, n - 1 of them its own. n = 1 makes no thread.
+//   2. Idle workers are parked after a short spin; a range that is not worth sharing runs on the caller alone.
+//   3. Which worker takes which block is not fixed. Results stay the same for any number of workers as long as blocks
+//      write to disjoint places; everything in low_level keeps to that.
+//   4. No allocation after construction.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <type_traits>
+
+namespace pfx {
+
+struct TaskRange {
+  uint32_t begin, end;  // indices
+  uint32_t worker;      // 0 .. numWorkers() - 1; 0 is the caller
+};
+
+class TaskManager {
+ public:
+  explicit TaskManager(int num_workers = 1);  // clamped to 1 .. 64
+  ~TaskManager();
+  TaskManager(const TaskManager&) = delete;
+  TaskManager& operator=(const TaskManager&) = delete;
+
+  int numWorkers() const;
+
+  // Calls fn(TaskRange) on blocks of `grain` indices that together cover [0, count), and returns when all are done.
+  // Blocks start at multiples of grain. Exceptions must not leave fn. Not reentrant.
+  template <class Fn>
+  void parallelFor(uint32_t count, uint32_t grain, Fn&& fn) {
+    using Body = std::remove_reference_t<Fn>;
+    run(count, grain, const_cast<void*>(static_cast<const void*>(&fn)),
+        [](void* f, TaskRange range) { (*static_cast<Body*>(f))(range); });
+  }
+
+ private:
+  using Call = void (*)(void*, TaskRange);
+  void run(uint32_t count, uint32_t grain, void* fn, Call call);
+
+  struct Pool;
+  std::unique_ptr<Pool> pool_;
+};
+
+}  // namespace pfx
