@@ -1,3 +1,4 @@
+// The table of all scenes, one line a scene, in the order of the browser.
 #include "samples/scene.h"
 
 namespace samples {
