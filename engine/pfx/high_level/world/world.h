@@ -35,12 +35,12 @@ struct WorldDef {
 };
 
 struct BodyDef {
-  std::string name;                      // for inspectors and files; need not be unique
-  Transform pose;                        // of the centre of mass
+  std::string name = {};                 // for inspectors and files; need not be unique
+  Transform pose = {};                   // of the centre of mass
   Vec3 linear_velocity = Vec3::Zero();   // m/s
   Vec3 angular_velocity = Vec3::Zero();  // rad/s, world axes
   MotionType motion_type = MotionType::Active;
-  std::vector<Shape> shapes;             // at least one; offsets are relative to the centre of mass
+  std::vector<Shape> shapes = {};        // at least one; offsets are relative to the centre of mass
   float mass = 1.0f;                     // kg
   // kg m^2, body axes. Zero: computed from the shapes with uniform density scaled to `mass`.
   Mat3 inertia = Mat3::Zero();
