@@ -25,7 +25,8 @@ struct OdeLibrary {
 // ODE's quaternions have w first; capsules and cylinders lie along its Z, ours along X.
 void setOffset(dGeomID geom, const pfx::Transform& offset, bool along_z) {
   const float half = std::sqrt(0.5f);
-  const pfx::Quat q = along_z ? offset.orientation * pfx::Quat(half, 0.0f, half, 0.0f) : offset.orientation;
+  const pfx::Quat turn = along_z ? pfx::Quat(half, 0.0f, half, 0.0f) : pfx::Quat(1.0f, 0.0f, 0.0f, 0.0f);
+  const pfx::Quat q = offset.orientation * turn;
   const dQuaternion rotation = {q.w(), q.x(), q.y(), q.z()};
   dGeomSetOffsetPosition(geom, offset.position.x(), offset.position.y(), offset.position.z());
   dGeomSetOffsetQuaternion(geom, rotation);
