@@ -20,12 +20,18 @@ vitrine=$project_root/build/release/bin/vitrine
 
 if [ "$show" = window ]; then
   say "opening the browser"
-  exec "$vitrine" browse "$@"
+  "$vitrine" browse "$@"
+  status=$?
+  # A display that cannot be opened (exit 2) is as good as none, unless the scene was the reason.
+  { [ $status -eq 2 ] && [ $# -eq 0 ]; } || exit $status
 fi
 
 gallery=$project_root/build/gallery
-say "rendering the samples into $gallery"
-"$vitrine" list --json >"$project_root/build/samples.json" || fail "vitrine list failed"
-python3 "$project_root/samples/gallery.py" --vitrine "$vitrine" --list "$project_root/build/samples.json" --out "$gallery" ||
-  fail "rendering the gallery failed"
+if [ "$gallery/index.html" -nt "$vitrine" ]; then
+  say "the gallery is up to date"
+else
+  say "rendering the samples into build/gallery"
+  rm -rf "$gallery"
+  python3 -B "$project_root/samples/gallery.py" page "$vitrine" "$gallery" || fail "rendering the gallery failed"
+fi
 say "gallery: $gallery/index.html"

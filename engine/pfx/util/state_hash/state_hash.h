@@ -1,4 +1,4 @@
-// One number that says whether two worlds are in the same state, to the last bit.
+// One number for the state of all bodies, to tell whether two runs went the same way to the last bit.
 #pragma once
 
 #include <cstdint>
@@ -8,8 +8,7 @@
 
 namespace pfx {
 
-// Hash of position, orientation, linear and angular velocity of all bodies, in order, by their bits: -0 and
-// +0 differ, and so do two NaNs. The same on all little-endian machines. Algorithm: XXH3, 64 bit.
-uint64_t stateHash(std::span<const RigidState> states);
+// 64-bit hash of position, orientation and both velocities of every body, in order, bit by bit.
+uint64_t hashStates(std::span<const RigidState> states);
 
 }  // namespace pfx
