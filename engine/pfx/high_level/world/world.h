@@ -12,6 +12,7 @@
 #include "pfx/base_level/rigid_body/rigid_body.h"
 #include "pfx/base_level/rigid_body/rigid_state.h"
 #include "pfx/base_level/shape/collidable.h"
+#include "pfx/base_level/simd_level.h"
 
 namespace pfx {
 
@@ -26,6 +27,7 @@ struct WorldDef {
   Pipeline pipeline = Pipeline::Stable;
   int substeps = 4;          // solver sub-steps a step, >= 1; error of contacts and joints falls with its square, cost
                              // of the solver rises in proportion
+  SimdLevel simd = SimdLevel::Auto;  // widest kernels to use; the result is the same for all
   int workers = 1;           // threads, the caller included; the result is the same for any number
   bool sleeping = false;     // islands at rest are put to sleep
   float sleep_velocity = 0.1f;   // m/s and rad/s
@@ -124,8 +126,9 @@ class World {
   std::vector<std::string_view> stages() const;              // that this world's content makes it run, in order
   uint64_t stateHash() const;                                // of pose and velocity of all bodies, bit-exact
 
+  struct Impl;  // the stages of high_level/pipeline work on it
+
  private:
-  struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -9,6 +9,7 @@
 
 #include "pfx/base_level/constraint/contact_rows.h"
 #include "pfx/base_level/constraint/solver_body.h"
+#include "pfx/base_level/simd_level.h"
 
 namespace pfx {
 
@@ -22,8 +23,6 @@ struct ContactKernels {
   Fn restitution;  // rows that took an impact leave with restitution times the approach speed
   const char* name;
 };
-
-enum class SimdLevel : uint8_t { Auto, Sse2, Avx2 };
 
 // The kernels for `level`; Auto and unsupported levels give the best that this processor runs.
 const ContactKernels& contactKernels(SimdLevel level = SimdLevel::Auto);
