@@ -82,26 +82,26 @@ Planes toOpponentPlanes(const Image& image) {
   return out;
 }
 
+// out[i] += weight * in[i]; the loop that all filtering ends in, so that it runs over whole rows.
+void addRow(float* out, const float* in, float weight, int count) {
+  for (int i = 0; i < count; ++i) out[i] += weight * in[i];
+}
+
 // Convolution with a separable kernel of odd length; pixels beyond the border repeat it.
 Plane convolve(const Plane& in, int width, int height, const Plane& along_x, const Plane& along_y) {
-  const auto pass = [](const Plane& src, int lines, int length, size_t line_step, size_t step, const Plane& kernel) {
-    Plane dst(src.size());
-    const int radius = int(kernel.size()) / 2;
-    Plane padded(size_t(length + 2 * radius));
-    for (int line = 0; line < lines; ++line) {
-      const size_t base = size_t(line) * line_step;
-      for (int i = 0; i < length + 2 * radius; ++i)
-        padded[size_t(i)] = src[base + size_t(std::clamp(i - radius, 0, length - 1)) * step];
-      for (int i = 0; i < length; ++i) {
-        float sum = 0.0f;
-        for (size_t k = 0; k < kernel.size(); ++k) sum += kernel[k] * padded[size_t(i) + k];
-        dst[base + size_t(i) * step] = sum;
-      }
+  const int radius_x = int(along_x.size()) / 2, radius_y = int(along_y.size()) / 2;
+  Plane rows(in.size(), 0.0f), out(in.size(), 0.0f), padded(size_t(width + 2 * radius_x));
+  for (int y = 0; y < height; ++y) {
+    const float* row = &in[size_t(y) * size_t(width)];
+    for (int i = 0; i < int(padded.size()); ++i) padded[size_t(i)] = row[std::clamp(i - radius_x, 0, width - 1)];
+    for (size_t k = 0; k < along_x.size(); ++k) addRow(&rows[size_t(y) * size_t(width)], &padded[k], along_x[k], width);
+  }
+  for (int y = 0; y < height; ++y)
+    for (int k = 0; k < int(along_y.size()); ++k) {
+      const int from = std::clamp(y + k - radius_y, 0, height - 1);
+      addRow(&out[size_t(y) * size_t(width)], &rows[size_t(from) * size_t(width)], along_y[size_t(k)], width);
     }
-    return dst;
-  };
-  const Plane rows = pass(in, height, width, size_t(width), 1, along_x);
-  return pass(rows, width, height, 1, size_t(width), along_y);
+  return out;
 }
 
 // One Gaussian of the contrast sensitivity function: a sqrt(pi/b) exp(-pi^2 x^2 / b), x in degrees.

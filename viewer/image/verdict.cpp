@@ -4,8 +4,6 @@
 #include <cmath>
 #include <cstdio>
 
-#include "viewer/image/flip.h"
-
 namespace viewer {
 namespace {
 
@@ -33,8 +31,8 @@ void judgeSame(Verdict& v, size_t num_pixels, const Limits& limits) {
 }
 
 void judgeOther(Verdict& v, const Image& golden, const Image& actual, const Limits& limits) {
-  const FlipResult flip = measureFlip(golden, actual);
-  v.mean_flip = flip.mean, v.max_block_flip = flip.max_block;
+  v.flip = measureFlip(golden, actual);
+  const FlipResult& flip = *v.flip;
   if (flip.max_block > limits.other_max_block_flip)
     v.why = "another rasteriser, and an 8x8 block has FLIP " + number(double(flip.max_block)) + ", " +
             number(double(limits.other_max_block_flip)) + " allowed";

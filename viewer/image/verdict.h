@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 
+#include "viewer/image/flip.h"
 #include "viewer/image/image.h"
 #include "viewer/image/metric.h"
 
@@ -28,7 +29,7 @@ struct Verdict {
   bool exact = false;         // every pixel is equal
   std::string why;            // one line, with the figure that decided
   ImageDifference difference;
-  std::optional<float> mean_flip, max_block_flip;  // when FLIP was computed
+  std::optional<FlipResult> flip;  // when it was computed
 };
 
 // FLIP is computed for Rasteriser::Other when a pixel differs. Images of different size fail.
