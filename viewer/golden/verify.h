@@ -45,7 +45,6 @@ struct FrameResult {
 
 struct VerifySettings {
   std::filesystem::path golden_dir;
-  int width = 640, height = 360;  // px, of the pictures that the source draws
   bool strict_renderer = false;   // another rasteriser than the golden's is a failure
   int workers = 1;                // threads that draw, each with a source of its own
   bool find_stale = false;        // `scenes` are all there are: a golden image of another scene is stale

@@ -68,4 +68,11 @@ std::vector<SceneSpec> findTarget(std::span<const SceneSpec> scenes, std::string
                    (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") + " (vitrine list shows all)");
 }
 
+SceneSpec findScene(std::span<const SceneSpec> scenes, std::string_view target) {
+  std::vector<SceneSpec> found = findTarget(scenes, target);
+  if (found.size() == 1) return std::move(found.front());
+  throw InputError("\"" + std::string(target) + "\" has " + std::to_string(found.size()) +
+                   " scenes; name one, for example " + found.front().target());
+}
+
 }  // namespace viewer

@@ -30,4 +30,7 @@ std::vector<SceneSpec> allScenes();
 // The scenes of `scenes` that TARGET names: SAMPLE or SAMPLE/SCENE. Throws InputError naming the nearest known target.
 std::vector<SceneSpec> findTarget(std::span<const SceneSpec> scenes, std::string_view target);
 
+// The one scene that TARGET names: SAMPLE/SCENE, or the SAMPLE of a single scene. Throws InputError when there are more.
+SceneSpec findScene(std::span<const SceneSpec> scenes, std::string_view target);
+
 }  // namespace viewer
