@@ -117,9 +117,14 @@ ShapeHit describe(const LargeMesh& mesh, const LocalRay& ray, double fraction, u
   return {true, fraction, against.normalized().cast<float>(), facet, Vec2(static_cast<float>(s), static_cast<float>(t))};
 }
 
-}  // namespace
+// The part of the ray that a mesh concerns.
+struct Approach {
+  Range range = {1.0, 0.0};  // empty: the ray passes by
+  double pad = 0.0;          // m
+  float reach = 0.0f;        // m
+};
 
-ShapeHit castRay(const LocalRay& ray, const LargeMesh& mesh) {
+Approach approach(const LocalRay& ray, const LargeMesh& mesh) {
   if (ray.direction.isZero(0.0) || mesh.numFacets() == 0) return {};
   const Aabb& box = mesh.surface_bounds;
   const float reach = std::max(box.min.cwiseAbs().maxCoeff(), box.max.cwiseAbs().maxCoeff());
@@ -129,17 +134,31 @@ ShapeHit castRay(const LocalRay& ray, const LargeMesh& mesh) {
   // Never shorter than the pad, so that a ray that grazes a corner keeps a direction.
   const double least = pad / ray.direction.cwiseAbs().maxCoeff();
   if (range.last - range.first < least) range.first -= least, range.last += least;
+  return {range, pad, reach};
+}
 
+}  // namespace
+
+MeshRayHit traceWith(MeshRayTrace trace, const LargeMesh& mesh, const LocalRay& ray) {
+  MeshRayHit hit;
+  const Approach a = approach(ray, mesh);
+  if (a.range.first <= a.range.last) trace(viewOf(mesh), prepare(ray, a.range, a.reach), hit);
+  return hit;
+}
+
+ShapeHit castRay(const LocalRay& ray, const LargeMesh& mesh) {
+  const Approach a = approach(ray, mesh);
+  if (a.range.first > a.range.last) return {};
   const MeshRayView view = viewOf(mesh);
-  const MeshRay prepared = prepare(ray, range, reach);
+  const MeshRay prepared = prepare(ray, a.range, a.reach);
   MeshRayHit hit;
   if (hasBvh(mesh.type)) {
     traceHierarchy(mesh, view, prepared, hit);
   } else {
-    traceIslands(mesh, view, ray, prepared, pad, hit);
+    traceIslands(mesh, view, ray, prepared, a.pad, hit);
   }
   if (hit.facet == kNoFacet) return {};
-  return describe(mesh, ray, range.first + hit.t * (range.last - range.first), hit.facet);
+  return describe(mesh, ray, a.range.first + hit.t * (a.range.last - a.range.first), hit.facet);
 }
 
 }  // namespace pfx

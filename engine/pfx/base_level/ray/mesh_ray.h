@@ -47,6 +47,10 @@ void traceQuantizedSse2(const MeshRayView& mesh, const MeshRay& ray, MeshRayHit&
 void traceExpandedAvx2(const MeshRayView& mesh, const MeshRay& ray, MeshRayHit& hit);
 void traceQuantizedAvx2(const MeshRayView& mesh, const MeshRay& ray, MeshRayHit& hit);
 
+// The hit of one of the kernels above, from the same preparation as castRay(); for tests and benchmarks.
+using MeshRayTrace = void (*)(const MeshRayView&, const MeshRay&, MeshRayHit&);
+MeshRayHit traceWith(MeshRayTrace trace, const LargeMesh& mesh, const LocalRay& ray);
+
 // Nearest hit among a run of facets, for meshes without hierarchy.
 void traceRunExpanded(const MeshRayView& mesh, const MeshRay& ray, uint32_t first, uint32_t count, MeshRayHit& hit);
 void traceRunQuantized(const MeshRayView& mesh, const MeshRay& ray, uint32_t first, uint32_t count, MeshRayHit& hit);

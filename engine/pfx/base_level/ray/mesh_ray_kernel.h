@@ -75,7 +75,16 @@ struct MeshRayKernel {
     return _mm_load_ps(r);
   }
 
-  // True if the facet's plane meets the ray between its ends, by doubles.
+  // Lanes seen so much from the side that rounding may have opened a facet that lies in the plane of the ray.
+  static int edgeOn(const Sheared& a, const Sheared& b, const Sheared& c, __m128 det) {
+    const __m128 sign = _mm_set1_ps(-0.0f);
+    const auto size = [&](const Sheared& p) { return _mm_max_ps(_mm_andnot_ps(sign, p.x), _mm_andnot_ps(sign, p.y)); };
+    const __m128 reach = _mm_max_ps(size(a), _mm_max_ps(size(b), size(c)));
+    const __m128 limit = _mm_mul_ps(_mm_set1_ps(1e-4f), _mm_mul_ps(reach, reach));
+    return _mm_movemask_ps(_mm_cmple_ps(_mm_andnot_ps(sign, det), limit));
+  }
+
+  // True if the facet's plane meets the ray between its ends, by doubles. False for a ray in that plane.
   static bool insideEnds(const MeshRayView& m, const MeshRay& ray, uint32_t facet) {
     const auto* q = reinterpret_cast<const QuantizedFacet*>(m.quantized_facets);
     double v[3][3], n[3];
@@ -94,12 +103,18 @@ struct MeshRayKernel {
     return t >= 0.0 && t <= ray.max_fraction;
   }
 
-  static void accept(const MeshRayView& m, const MeshRay& ray, uint32_t facet, float t, MeshRayHit& hit) {
-    if (t > hit.t) return;
-    if (t == hit.t && hit.facet != kNoFacet && m.source[facet] >= m.source[hit.facet]) return;
-    if ((t < 1e-5f || t > 0.99999f) && !insideEnds(m, ray, facet)) return;
-    hit.t = t;
-    hit.facet = facet;
+  struct Candidate {
+    uint32_t facet;
+    float t;
+    bool doubtful;
+  };
+
+  static void accept(const MeshRayView& m, const MeshRay& ray, const Candidate& c, MeshRayHit& hit) {
+    if (c.t > hit.t) return;
+    if (c.t == hit.t && hit.facet != kNoFacet && m.source[c.facet] >= m.source[hit.facet]) return;
+    if ((c.doubtful || c.t < 1e-5f || c.t > 0.99999f) && !insideEnds(m, ray, c.facet)) return;
+    hit.t = c.t;
+    hit.facet = c.facet;
   }
 
   static void leaf(const MeshRayView& m, const MeshRay& ray, uint32_t first, uint32_t count, MeshRayHit& hit) {
@@ -127,9 +142,10 @@ struct MeshRayKernel {
     if (mask == 0) return;
     alignas(16) float fraction[4];
     _mm_store_ps(fraction, t);
+    const int doubtful = edgeOn(a, b, c, det);
     for (; mask != 0; mask &= mask - 1) {
       const int i = __builtin_ctz(static_cast<unsigned>(mask));
-      accept(m, ray, facets[i], fraction[i], hit);
+      accept(m, ray, {facets[i], fraction[i], (doubtful >> i & 1) != 0}, hit);
     }
   }
 
