@@ -15,6 +15,7 @@ namespace {
 constexpr float kCapCosine = 0.8f;   // of the angle between the contact normal and the axis: a cap faces the other shape
 constexpr float kSideCosine = 0.3f;  // below: the side does
 constexpr float kNear = 1e-4f;       // of the size; see polytope_pair.cpp
+constexpr float kSameDepth = 1e-5f;  // of the size: depths that count as equal
 constexpr float kSnap = 2e-6f;       // of the size: how much less gap a feature's own normal may have
 
 bool hasCap(float cosine) { return std::abs(cosine) > kCapCosine; }
@@ -97,7 +98,7 @@ CoreAxis overlapAxis(const CylinderPair& p) {
   Candidates candidates;
   collectAxes(p, candidates);
   if (p.polytope != nullptr) candidates.add(bestPolytopeAxis(p));
-  return descendOverlap(p.a, p.b, p.pair.b_in_a, candidates.all());
+  return leastOverlap(p.a, p.b, p.pair.b_in_a, candidates.all());
 }
 
 // Where a face or cap is as good an axis as the one found, its own normal is exact and steady.
@@ -142,10 +143,13 @@ bool findAxis(const CylinderPair& p, CoreAxis& axis, LocalResult& result) {
   return true;
 }
 
+ContactCollector collector(const CylinderPair& p, const CoreAxis& axis) {
+  const float tolerance = kSameDepth * (p.cylinder.half_length + p.cylinder.radius);
+  return {axis.normal, {axis.separation - p.b.radius, p.pair.margin, tolerance}};
+}
+
 void finish(const CylinderPair& p, const CoreAxis& axis, ContactCollector& contacts, LocalManifold& m) {
-  const float tolerance = 1e-5f * (p.cylinder.half_length + p.cylinder.radius);
-  const Vec3 on_b = axis.point_b - p.b.radius * axis.normal;
-  contacts.ensureDepth(axis.point_a, on_b, tolerance);
+  contacts.ensureDepth(axis.point_a, axis.point_b - p.b.radius * axis.normal);
   reduceContacts(contacts.contacts(), m);
 }
 
@@ -154,9 +158,10 @@ void collideCylinderPolytope(const CylinderPair& p, LocalResult& result) {
   if (!findAxis(p, axis, result)) return;
   const Vec3& n = axis.normal;
   const RelativePose& pose = p.pair.b_in_a;
-  ContactCollector contacts(n, p.pair.margin);
+  ContactCollector contacts = collector(p, axis);
   ContactPolygon face;
-  loadFace(*p.polytope, supportingFace(*p.polytope, -pose.rotateToB(n)), pose, face);
+  const Vec3 to_b = -pose.rotateToB(n);
+  loadFace(*p.polytope, supportingFaceAt(*p.polytope, to_b, p.b.support(to_b).id), pose, face);
   if (-face.normal.dot(n) > kCapCosine) {
     if (hasCap(n.x())) contacts.discFace(cap(p.cylinder, {}, n.x()), face);
     if (hasSide(n.x())) contacts.segmentFace(sideLine({}, p.cylinder.half_length, p.cylinder.radius, n), face);
@@ -187,7 +192,7 @@ void collideCylinderCapsule(const LocalPair& pair, LocalResult& result) {
   CoreAxis axis;
   if (!findAxis(p, axis, result)) return;
   const Vec3& n = axis.normal;
-  ContactCollector contacts(n, pair.margin);
+  ContactCollector contacts = collector(p, axis);
   if (hasSide(n.dot(pair.b_in_a.rotation.col(0)))) {
     // The lowest line of the capsule is its core moved down along the normal.
     const Vec3 middle = pair.b_in_a.position - capsule.radius * n, half = capsule.half_length * pair.b_in_a.rotation.col(0);
@@ -206,7 +211,7 @@ void collideCylinderCylinder(const LocalPair& pair, LocalResult& result) {
   const Vec3& n = axis.normal;
   const RelativePose& pose = pair.b_in_a;
   const float cosine_b = -n.dot(pose.rotation.col(0));
-  ContactCollector contacts(n, pair.margin);
+  ContactCollector contacts = collector(p, axis);
   if (hasCap(n.x()) && hasCap(cosine_b)) contacts.discDisc(cap(a, {}, n.x()), cap(b, pose, cosine_b));
   if (hasCap(n.x()) && hasSide(cosine_b)) {
     contacts.discSegment(cap(a, {}, n.x()), sideLine(pose, b.half_length, b.radius, -n), true);

@@ -72,15 +72,17 @@ bool insideFace(const ContactPolygon& face, const Vec3& p, const Vec3& n, float 
 
 void ContactCollector::add(const Vec3& on_a, const Vec3& on_b, uint32_t feature) {
   const float distance = (on_b - on_a).dot(normal_);
-  if (distance <= margin_ && count_ < kCapacity) contacts_[count_++] = {on_a, on_b, distance, feature};
+  if (distance > range_.margin || distance < range_.separation - range_.tolerance || count_ == kCapacity) return;
+  contacts_[count_++] = {on_a, on_b, distance, feature};
 }
 
-void ContactCollector::ensureDepth(const Vec3& on_a, const Vec3& on_b, float tolerance) {
-  const float distance = (on_b - on_a).dot(normal_);
+void ContactCollector::ensureDepth(const Vec3& on_a, const Vec3& on_b) {
   for (const LocalContact& c : contacts()) {
-    if (c.distance <= distance + tolerance) return;
+    if (c.distance <= range_.separation + range_.tolerance) return;
   }
-  add(on_a, on_b, 1);
+  const Vec3 gap = on_b - on_a;
+  const Vec3 middle = on_a + 0.5f * (gap - gap.dot(normal_) * normal_);
+  add(middle, middle + range_.separation * normal_, 1);
 }
 
 void ContactCollector::discFace(const ContactDisc& a, const ContactPolygon& b) {

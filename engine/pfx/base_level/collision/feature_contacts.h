@@ -20,10 +20,14 @@ struct ContactSegment {
   uint32_t id;
 };
 
-// Collects contacts along `normal` (unit, from A to B). Points farther apart than the margin are left out.
+// Collects contacts along `normal` (unit, from A to B). Points farther apart than `margin` are left out, and so are points
+// deeper than `separation`, the gap of the shapes along the normal: such a point would lie beside one of them.
 class ContactCollector {
  public:
-  ContactCollector(const Vec3& normal, float margin) : normal_(normal), margin_(margin) {}
+  struct Range {
+    float separation, margin, tolerance;  // m
+  };
+  ContactCollector(const Vec3& normal, const Range& range) : normal_(normal), range_(range) {}
 
   void discFace(const ContactDisc& a, const ContactPolygon& b);
   void discDisc(const ContactDisc& a, const ContactDisc& b);
@@ -33,8 +37,9 @@ class ContactCollector {
 
   void add(const Vec3& on_a, const Vec3& on_b, uint32_t feature);
 
-  // Adds a deepest point that is known from elsewhere, unless a collected one is as deep within `tolerance` metres.
-  void ensureDepth(const Vec3& on_a, const Vec3& on_b, float tolerance);
+  // Adds a deepest point that is known from elsewhere, unless a collected one is as deep. What its two ends are apart
+  // across the normal is shared between them.
+  void ensureDepth(const Vec3& on_a, const Vec3& on_b);
 
   std::span<const LocalContact> contacts() const { return {contacts_, size_t(count_)}; }
 
@@ -42,7 +47,7 @@ class ContactCollector {
   static constexpr int kCapacity = 2 * kMaxFaceVertices + 16;
 
   Vec3 normal_;
-  float margin_;
+  Range range_;
   int count_ = 0;
   LocalContact contacts_[kCapacity];
 };

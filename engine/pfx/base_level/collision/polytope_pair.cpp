@@ -20,6 +20,7 @@ constexpr float kHysteresis = 1e-3f;  // of the smaller inner radius; see box_pa
 constexpr float kNear = 1e-4f;
 // A face normal stands for the axis when its gap is short of the distance by no more than this fraction of the size.
 constexpr float kFaceGap = 1e-6f;
+constexpr float kSameDepth = 1e-5f;  // of the size: depths that count as equal
 
 uint32_t encode(const PolytopeAxis& axis) {
   if (axis.a > 0x7fff || axis.b > 0x7fff) return 0;
@@ -35,10 +36,16 @@ PolytopeAxis rememberedFace(const PolytopePair& p, const LocalPair& pair) {
   return {};
 }
 
+// The face that a polytope turns to its partner: one at its farthest corner.
+uint32_t turnedFace(const Polytope& polytope, const ConvexCore& core, const Vec3& direction) {
+  return supportingFaceAt(polytope, direction, core.support(direction).id);
+}
+
 void facePatch(const PolytopePair& p, const PolytopeAxis& axis, const LocalPair& pair, LocalManifold& m) {
   ContactPolygon face_a, face_b;
-  const uint32_t fa = axis.kind == Kind::FaceA ? axis.a : supportingFace(p.a, axis.normal);
-  const uint32_t fb = axis.kind == Kind::FaceB ? axis.b : supportingFace(p.b, -pair.b_in_a.rotateToB(axis.normal));
+  const Vec3 to_b = -pair.b_in_a.rotateToB(axis.normal);
+  const uint32_t fa = axis.kind == Kind::FaceA ? axis.a : turnedFace(p.a, p.core_a, axis.normal);
+  const uint32_t fb = axis.kind == Kind::FaceB ? axis.b : turnedFace(p.b, p.core_b, to_b);
   loadFace(p.a, fa, face_a);
   loadFace(p.b, fb, pair.b_in_a, face_b);
   if (axis.kind == Kind::FaceA) {
@@ -62,7 +69,7 @@ PolytopeAxis gapAxis(const PolytopePair& p, const LocalPair& pair, const GjkResu
   const auto face_a = uint16_t(supportingFace(p.a, gjk.normal));
   const auto face_b = uint16_t(supportingFace(p.b, -pair.b_in_a.rotateToB(gjk.normal)));
   const PolytopeAxis a = faceAxisA(p.a, p.b, pair.b_in_a, face_a), b = faceAxisB(p.a, p.b, pair.b_in_a, face_b);
-  const float needed = gjk.distance * (1.0f - 1e-4f) - kFaceGap * size;
+  const float needed = gjk.distance - kFaceGap * (size + gjk.distance);
   const bool b_before = Kind(pair.hint >> 30) == Kind::FaceB;
   if (b_before && b.separation >= needed) return b;
   if (a.separation >= needed) return a;
@@ -100,6 +107,7 @@ void collidePolytopes(const PolytopePair& p, const LocalPair& pair, LocalResult&
   result.hint = encode(axis);
   if (axis.kind == Kind::FaceA || axis.kind == Kind::FaceB) facePatch(p, axis, pair, m);
   if (axis.kind == Kind::Edges) edgePoint(p, axis, pair, m);
+  if (gap && deepest(m) > gjk.distance + kSameDepth * size) m.num_points = 0;  // the closest points lie beside the face
   if (m.num_points > 0) return;
   if (gjk.state == GjkResult::State::Separated) {
     m.normal = gjk.distance > kNear * size ? gjk.normal : axis.normal;

@@ -87,10 +87,12 @@ float oracle(const Solid& a, const Solid& b, const RelativePose& pose) {
 
 class AllPairs : public testing::TestWithParam<std::tuple<ShapeType, ShapeType>> {};
 
+// The oracle's search may stop below the true maximum, never above it; and what a manifold reports must be attained by
+// its own normal. Together the two bounds enclose the error.
 TEST_P(AllPairs, ReportTheSignedDistanceOfTheOracle) {
   const auto [type_a, type_b] = GetParam();
   Random random(11 + 7 * uint32_t(type_a) + uint32_t(type_b));
-  float worst_gap = 0.0f, worst_overlap = 0.0f;
+  float below[2] = {0.0f, 0.0f}, above[2] = {0.0f, 0.0f};
   for (int i = 0; i < 60; ++i) {
     const Solid a(type_a, random), b(type_b, random);
     const Transform pose_a{random.vector(1.0f), random.rotation()}, pose_b{random.vector(1.0f), random.rotation()};
@@ -99,17 +101,15 @@ TEST_P(AllPairs, ReportTheSignedDistanceOfTheOracle) {
     expectConsistent(m, pose_a, pose_b, 1e-5f);
     const RelativePose pose(relative(pose_a, pose_b));
     const float expected = oracle(a, b, pose), found = deepest(m);
-    float& worst = expected > 0.0f ? worst_gap : worst_overlap;
-    worst = std::max(worst, std::abs(found - expected));
-    // The normal is an axis with that separation.
-    const Vec3 n = pose_a.orientation.conjugate() * m.normal;
-    EXPECT_NEAR(separation(a, b, pose, n), found, 1e-3f);
+    const float attained = separation(a, b, pose, pose_a.orientation.conjugate() * m.normal);
+    const int overlap = expected < 0.0f;
+    below[overlap] = std::max(below[overlap], expected - found);
+    above[overlap] = std::max(above[overlap], found - attained);
+    if (std::getenv("PFX_PRINT") && (expected - found > 2e-5f || found - attained > 2e-5f)) std::printf("  %d: exp %g found %g attained %g\n", i, double(expected), double(found), double(attained));
   }
-  RecordProperty("worst_gap_error", std::to_string(worst_gap));
-  RecordProperty("worst_overlap_error", std::to_string(worst_overlap));
-  if (std::getenv("PFX_PRINT")) std::printf("%s %s: gap %g overlap %g\n", kNames[int(type_a)], kNames[int(type_b)], double(worst_gap), double(worst_overlap));
-  EXPECT_LT(worst_gap, 2e-5f);
-  EXPECT_LT(worst_overlap, 2e-5f);
+  if (std::getenv("PFX_PRINT")) std::printf("%s %s: gap -%g +%g overlap -%g +%g\n", kNames[int(type_a)], kNames[int(type_b)], double(below[0]), double(above[0]), double(below[1]), double(above[1]));
+  EXPECT_LT(std::max(below[0], above[0]), 2e-5f);
+  EXPECT_LT(std::max(below[1], above[1]), 2e-5f);
 }
 
 TEST_P(AllPairs, NeverMissAnOverlapOfTheInscribedBalls) {
