@@ -1,5 +1,5 @@
-// A place where OpenGL 3.3 core can be called. Three backends stand behind it, each opened at run time, none linked:
-// OSMesa and EGL without a surface draw offscreen, GLFW opens a window.
+// A place where OpenGL 3.3 core can be called. Three backends stand behind it, each opened at run time, none
+// linked: OSMesa and EGL without a surface draw offscreen, GLFW opens a window.
 #pragma once
 
 #include <memory>
@@ -29,8 +29,8 @@ class ContextError : public std::runtime_error {
   using std::runtime_error::runtime_error;
 };
 
-// Contexts belong to the thread that made them. Renderers draw into framebuffers of their own and make their context
-// current themselves; several contexts can live in one process.
+// Contexts belong to the thread that made them. Renderers draw into framebuffers of their own and make their
+// context current themselves; several contexts can live in one process.
 class GlContext {
  public:
   virtual ~GlContext();
@@ -53,12 +53,13 @@ class GlContext {
   std::unique_ptr<GladGLContext> gl_;
 };
 
-// Opens an offscreen context (Glfw: of a hidden window, which needs a display). Throws ContextError. Reasons of backends
-// that Auto passed over are appended to `passed_over` when it is given.
+// Opens an offscreen context (Glfw: of a hidden window, which needs a display). Throws ContextError. Reasons
+// of backends that Auto passed over are appended to `passed_over` when it is given.
 //
-// Before the first call into GL it removes LP_*, GALLIVM_*, GALLIUM_*, MESA_* and LIBGL_* from the environment (except
-// LP_NUM_THREADS): they change what is drawn or crash the software rasterizer. Call it before other threads read the
-// environment.
-std::unique_ptr<GlContext> makeContext(const ContextRequest& request, std::vector<std::string>* passed_over = nullptr);
+// Before the first call into GL it removes LP_*, GALLIVM_*, GALLIUM_*, MESA_* and LIBGL_* from the
+// environment (except LP_NUM_THREADS): they change what is drawn or crash the software rasterizer. Call it
+// before other threads read the environment.
+std::unique_ptr<GlContext> makeContext(const ContextRequest& request,
+                                       std::vector<std::string>* passed_over = nullptr);
 
 }  // namespace viewer

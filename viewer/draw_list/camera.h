@@ -15,8 +15,8 @@ struct Camera {
   pfx::Vec3 eye = pfx::Vec3(8.0f, 6.0f, 14.0f);  // m
   pfx::Vec3 target = pfx::Vec3::Zero();          // m
   pfx::Vec3 up = pfx::Vec3::UnitY();
-  float fov_y_deg = 40.0f;      // full vertical angle
-  float near_m = 0.05f;         // distance of the near plane, > 0
+  float fov_y_deg = 40.0f;  // full vertical angle
+  float near_m = 0.05f;     // distance of the near plane, > 0
   float far_m = 1000.0f;
   bool orthographic = false;
   float ortho_height_m = 10.0f;  // full height of the picture, orthographic only

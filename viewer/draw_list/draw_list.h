@@ -1,8 +1,9 @@
-// Everything that is in a picture, without GL: solids as instances of meshes, lines, arrows, points, labels, camera, sun.
+// Everything that is in a picture, without GL: solids as instances of meshes, lines, arrows, points, labels,
+// camera, sun.
 //
-// A list is recorded again for every frame between begin() and end(). Content that did not change is recognised while it
-// is recorded and keeps its revision, so that a renderer uploads only what is new. Lists can be compared and hashed,
-// which is how the drawing is tested without a graphics library.
+// A list is recorded again for every frame between begin() and end(). Content that did not change is
+// recognised while it is recorded and keeps its revision, so that a renderer uploads only what is new. Lists
+// can be compared and hashed, which is how the drawing is tested without a graphics library.
 #pragma once
 
 #include <cstdint>
@@ -22,49 +23,56 @@ using pfx::Color;  // 0xAARRGGBB, sRGB
 
 // What a pixel shows: kind in the high 4 bits, index in the low 28. Zero: nothing that can be picked.
 enum class PickKind : uint32_t { Nothing, Body, Contact, Joint, Triangle, Island, Item };
-constexpr uint32_t pickId(PickKind kind, uint32_t index) { return uint32_t(kind) << 28 | (index & 0x0fffffffu); }
+constexpr uint32_t pickId(PickKind kind, uint32_t index) {
+  return uint32_t(kind) << 28 | (index & 0x0fffffffu);
+}
 constexpr PickKind pickKind(uint32_t id) { return PickKind(id >> 28); }
 constexpr uint32_t pickIndex(uint32_t id) { return id & 0x0fffffffu; }
 
 // The meshes that every list knows. Others have the content hash of their geometry as key.
 inline constexpr uint64_t kUnitBox = 1;       // scale: half extents
 inline constexpr uint64_t kUnitCylinder = 2;  // scale: half length, radius, radius
-inline constexpr uint64_t kRound = 3;         // sphere or capsule along X; scale: half length of the core, radius, radius
+inline constexpr uint64_t kRound =
+    3;  // sphere or capsule along X; scale: half length of the core, radius, radius
 
 // One solid. Its layout is that of the vertex buffer.
 struct Instance {
-  pfx::Vec3 position = pfx::Vec3::Zero();          // m
-  pfx::Quat orientation = pfx::Quat::Identity();   // unit
-  pfx::Vec3 scale = pfx::Vec3::Ones();             // m for the unit meshes, a factor for others
+  pfx::Vec3 position = pfx::Vec3::Zero();         // m
+  pfx::Quat orientation = pfx::Quat::Identity();  // unit
+  pfx::Vec3 scale = pfx::Vec3::Ones();            // m for the unit meshes, a factor for others
   Color color = 0xffffffffu;
-  uint32_t finish = 0;                             // pfx::Finish
+  uint32_t finish = 0;  // pfx::Finish
   uint32_t pick = 0;
 };
 static_assert(sizeof(Instance) == 52);
 
+inline bool isTranslucent(const Instance& i) {
+  return i.finish == uint32_t(pfx::Finish::Translucent) || i.color >> 24 != 255;
+}
+
 struct Line {
-  pfx::Vec3 from, to;    // m
+  pfx::Vec3 from, to;  // m
   Color color;
-  float width = 1.5f;    // px
+  float width = 1.5f;  // px
   uint32_t pick = 0;
 };
 
 struct Arrow {
-  pfx::Vec3 from, to;    // m, the tip is at `to`
+  pfx::Vec3 from, to;  // m, the tip is at `to`
   Color color;
-  float width = 2.0f;    // px, of the shaft
+  float width = 2.0f;  // px, of the shaft
   uint32_t pick = 0;
 };
 
 struct Point {
-  pfx::Vec3 position;    // m
+  pfx::Vec3 position;  // m
   Color color;
-  float size = 6.0f;     // px, diameter
+  float size = 6.0f;  // px, diameter
   uint32_t pick = 0;
 };
 
-// Text at a place in the world (dimmed where that place is hidden), or on the screen: then `position` is (x, y, 0) in
-// pixels from the top left corner, or from the right or bottom edge when negative.
+// Text at a place in the world (dimmed where that place is hidden), or on the screen: then `position` is (x,
+// y, 0) in pixels from the top left corner, or from the right or bottom edge when negative.
 struct Label {
   pfx::Vec3 position;
   std::string text;
@@ -92,10 +100,12 @@ struct LegendEntry {
 struct Batch {
   static constexpr size_t kBlock = 64;
   std::vector<Instance> instances;
-  std::vector<uint64_t> block_revisions;  // (ceil(instances / kBlock)) revision of the list at the last change
-  uint64_t revision = 0;                  // of the last change of anything in it, its length included
-  bool translucent = false;               // some instance may let light through
-  size_t recorded = 0;                    // instances of the frame that is being recorded
+  // (ceil(instances / kBlock)) revision of the list at the last change. Revisions are unique in the process:
+  // a block of this mesh with the same revision has the same content, in whichever list.
+  std::vector<uint64_t> block_revisions;
+  uint64_t revision = 0;     // of the last change of anything in it, its length included
+  bool translucent = false;  // some instance may let light through
+  size_t recorded = 0;       // instances of the frame that is being recorded
 };
 
 class DrawList {
@@ -109,9 +119,11 @@ class DrawList {
   // Makes a mesh known under a key of its content. Known keys are left as they are.
   void defineMesh(uint64_t key, MeshData mesh);
 
-  void add(uint64_t mesh, const Instance& instance) { append(mesh, 1, [&](size_t) { return instance; }); }
-  // Adds `count` instances, make(i) each. Those that equal the ones of the last frame, in the same order, cost a
-  // comparison.
+  void add(uint64_t mesh, const Instance& instance) {
+    append(mesh, 1, [&](size_t) { return instance; });
+  }
+  // Adds `count` instances, make(i) each. Those that equal the ones of the last frame, in the same order,
+  // cost a comparison.
   template <class Make>
   void append(uint64_t mesh, size_t count, const Make& make);
 
@@ -139,14 +151,16 @@ class DrawList {
   bool scale_bar = false;  // a length in the lower left corner that is true at the camera's target
 
  private:
-  std::map<uint64_t, MeshData> meshes_;  // of keys above kRound; ordered, so that pictures do not depend on history
+  std::map<uint64_t, MeshData>
+      meshes_;  // of keys above kRound; ordered, so that pictures do not depend on history
   std::map<uint64_t, Batch> batches_;
   std::vector<Line> lines_;
   std::vector<Arrow> arrows_;
   std::vector<Point> points_;
   std::vector<Label> labels_;
   std::vector<LegendEntry> legend_;
-  uint64_t revision_ = 0;
+  uint64_t revision_ = nextRevision();
+  static uint64_t nextRevision();
 };
 
 template <class Make>

@@ -8,8 +8,8 @@
 
 namespace viewer {
 
-// Keep one recorder beside each list: it remembers which of the engine's keys became which mesh. The callbacks point to
-// the recorder, which must outlive them.
+// Keep one recorder beside each list: it remembers which of the engine's keys became which mesh. The
+// callbacks point to the recorder, which must outlive them.
 class Recorder {
  public:
   explicit Recorder(DrawList& list) : list_(&list) {}
@@ -31,6 +31,7 @@ class Recorder {
     uint64_t mesh;
     pfx::Vec3 scale;
   };
+  Line style(pfx::Color color) const { return {{}, {}, color, line_width, pick}; }
   void define(uint64_t key, const pfx::Geometry& geometry);
   void draw(uint64_t key, std::span<const pfx::SolidInstance> instances);
 

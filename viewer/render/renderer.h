@@ -1,7 +1,7 @@
 // Draws a draw list with OpenGL 3.3 core into framebuffers of its own.
 //
-// A picture is a function of FrameInput, DrawList and the parameters: nothing else is remembered that shows. All GL
-// objects belong to the renderer, so that several can live in one process and on one context.
+// A picture is a function of FrameInput, DrawList and the parameters: nothing else is remembered that shows.
+// All GL objects belong to the renderer, so that several can live in one process and on one context.
 #pragma once
 
 #include <memory>
@@ -29,15 +29,15 @@ struct RenderParams {
 };
 
 struct FrameInput {
-  int width = 640, height = 360;       // px, 1 .. 8192
-  const ImDrawData* ui = nullptr;      // painted on top, one unit a pixel
-  uint32_t selected = 0;               // pick id to outline; 0: none
-  float label_scale = 1.0f;            // of text, whole numbers are sharpest
+  int width = 640, height = 360;   // px, 1 .. 8192
+  const ImDrawData* ui = nullptr;  // painted on top, one unit a pixel
+  uint32_t selected = 0;           // pick id to outline; 0: none
+  float label_scale = 1.0f;        // of text, whole numbers are sharpest
 };
 
 struct RenderStats {
   uint32_t draw_calls = 0, instances = 0, triangles = 0, lines = 0;
-  size_t uploaded_bytes = 0;           // instances, lines and meshes sent in this frame
+  size_t uploaded_bytes = 0;  // instances, lines and meshes sent in this frame
 };
 
 // GL reported an error, a shader did not compile, or a size is out of range.
@@ -54,12 +54,12 @@ class Renderer {
   // Draws into the renderer's own picture. Throws RenderError when GL reports an error.
   RenderStats draw(const FrameInput& frame, const DrawList& list);
 
-  // The last picture. Throws RenderError before the first draw, and when all its pixels are equal although the list
-  // had something in it (a blank picture is a fault, not a result).
+  // The last picture. Throws RenderError before the first draw, and when all its pixels are equal although
+  // the list had something in it (a blank picture is a fault, not a result).
   Image readBack();
 
-  // What is under a pixel of the last frame (0,0: top left), as a pick id; 0: nothing. Draws an id pass of the
-  // neighbourhood, so it costs nothing unless called.
+  // What is under a pixel of the last frame (0,0: top left), as a pick id; 0: nothing. Draws an id pass of
+  // the neighbourhood, so it costs nothing unless called.
   uint32_t pick(const FrameInput& frame, const DrawList& list, int x, int y);
   // The id of every pixel, rows from top to bottom: for tests and counts of what is visible.
   std::vector<uint32_t> readIds(const FrameInput& frame, const DrawList& list);

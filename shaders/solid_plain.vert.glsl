@@ -1,0 +1,11 @@
+// Triangles of solids where only depth or the pick id counts.
+#include "frame.glsl"
+#include "solid_common.glsl"
+
+flat out uint v_pick;
+
+void main() {
+  v_pick = i_pick;
+  vec3 world = i_position + rotate(i_orientation, a_position * i_scale);
+  gl_Position = inLayer() ? u_clip * vec4(world, 1.0) : kOutside;
+}
