@@ -8,22 +8,21 @@ layout(std140) uniform Frame {
   vec4 ray_forward;     // unit
   vec4 sun;             // xyz: unit, towards the sun; w: 1 with shadows
   vec4 viewport;        // width, height in samples, and their inverses
-  vec4 shadow;          // x: texel in shadow-map coordinates; y: texel in metres; z: 1 with soft wide filter
+  vec4 shadow;          // x: texel in shadow-map coordinates; y: texel in metres; z: radius of the filter in texels
   vec4 fog;             // x: distance where haze starts (m); y: 1 / its range; z: samples along a pixel's side
+  vec4 floor_fade;      // xyz: middle of the part of large floors that is shown (m); w: 1 / its radius (1/m)
 };
 
-const vec3 kSkyZenith = vec3(0.270, 0.430, 0.660);
-const vec3 kSkyMiddle = vec3(0.560, 0.690, 0.840);
-const vec3 kSkyHorizon = vec3(0.880, 0.900, 0.905);
-const vec3 kHaze = vec3(0.800, 0.795, 0.780);
+const vec3 kSkyZenith = vec3(0.170, 0.330, 0.610);
+const vec3 kSkyMiddle = vec3(0.400, 0.590, 0.815);
+const vec3 kSkyHorizon = vec3(0.860, 0.885, 0.880);
+const vec3 kHaze = vec3(0.735, 0.745, 0.735);
 
-// Radiance of the sky in a direction (unit), linear.
-vec3 sky(vec3 direction) {
-  float y = direction.y;
-  vec3 above = mix(kSkyHorizon, kSkyMiddle, smoothstep(0.0, 0.28, y));
-  above = mix(above, kSkyZenith, smoothstep(0.2, 0.95, y));
-  return y > 0.0 ? above : mix(kSkyHorizon, kHaze, smoothstep(0.0, 0.12, -y));
+// Radiance of the sky in a direction (unit) of height y, linear: above and below the horizon.
+vec3 skyAbove(float y) {
+  return mix(mix(kSkyHorizon, kSkyMiddle, smoothstep(0.0, 0.32, y)), kSkyZenith, smoothstep(0.2, 0.95, y));
 }
+vec3 skyBelow(float y) { return mix(kSkyHorizon, kHaze, clamp(-5.0 * y, 0.0, 1.0)); }
 
 // Colours are stored as square roots, which are cheap to filter and fine enough in the dark.
 vec3 encode(vec3 linear) { return sqrt(clamp(linear, 0.0, 1.0)); }

@@ -13,6 +13,8 @@ flat in vec3 v_center;
 flat in vec4 v_orientation;
 flat in vec2 v_size;
 flat in vec4 v_color;
+flat in float v_sheen;
+flat in float v_haze;
 flat in uint v_finish;
 flat in uint v_pick;
 #if defined(PASS_COLOR)
@@ -42,10 +44,8 @@ vec4 firstHit(vec3 o, vec3 d) {
 // Two seams along the body and one round each end: they show how it turns.
 float seams(vec3 p) {
   vec3 q = vec3(abs(p.x) - v_size.x, p.yz);
-  vec3 slope = max(fwidth(q), 1e-6);
-  vec3 line = 1.0 - smoothstep(0.3, 1.1, abs(q) / slope / fog.z);
-  vec3 room = clamp(v_size.y / (slope * fog.z * 12.0) - 0.3, 0.0, 1.0);
-  line *= room;
+  vec3 slope = max(fwidth(q), 1e-6) * fog.z;
+  vec3 line = clamp(1.4 - 1.25 * abs(q) / slope, 0.0, 1.0) * clamp(v_size.y / (slope * 12.0) - 0.3, 0.0, 1.0);
   return max(line.x, max(line.y, line.z));
 }
 
@@ -61,8 +61,8 @@ void main() {
 #if defined(PASS_COLOR)
   vec3 normal = hit.xyz - vec3(clamp(hit.x, -v_size.x, v_size.x), 0.0, 0.0);
   normal = rotate(v_orientation, normal / v_size.y);
-  vec3 color = shade(position, normal, v_color.rgb, v_finish) * (1.0 - 0.30 * seam);
-  o_color = vec4(encode(tone(withHaze(color, position))), v_color.a);
+  vec3 color = shade(position, normal, v_color.rgb, v_sheen, v_finish) * (1.0 - 0.30 * seam);
+  o_color = vec4(encode(tone(mix(color, kSkyHorizon, v_haze))), v_color.a);
 #elif defined(PASS_ID)
   o_id = v_pick;
 #endif

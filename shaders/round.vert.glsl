@@ -10,7 +10,9 @@ out vec3 v_ray;    // shape frame, not unit
 flat out vec3 v_center;
 flat out vec4 v_orientation;
 flat out vec2 v_size;  // half length, radius
-flat out vec4 v_color;
+flat out vec4 v_color;  // linear
+flat out float v_sheen;
+flat out float v_haze;
 flat out uint v_finish;
 flat out uint v_pick;
 
@@ -21,8 +23,10 @@ void main() {
   v_center = i_position;
   v_orientation = i_orientation;
   v_size = i_scale.xy;
-  v_color = vec4(linearFromSrgb(i_color.bgr), i_color.a);
+  v_color = vec4(albedo(), i_color.a);
+  v_sheen = sheen();
+  v_haze = haze(i_position);
   v_finish = i_finish;
   v_pick = i_pick;
-  gl_Position = inLayer() ? u_clip * vec4(world, 1.0) : kOutside;
+  gl_Position = placed(world);
 }

@@ -6,6 +6,5 @@ flat out uint v_pick;
 
 void main() {
   v_pick = i_pick;
-  vec3 world = i_position + rotate(i_orientation, a_position * i_scale);
-  gl_Position = inLayer() ? u_clip * vec4(world, 1.0) : kOutside;
+  gl_Position = placed(i_position + rotate(i_orientation, a_position * i_scale));
 }

@@ -58,8 +58,10 @@ void DrawList::end() {
       batch.block_revisions.resize((batch.recorded + Batch::kBlock - 1) / Batch::kBlock);
       batch.revision = revision_;
     }
-    if (batch.revision == revision_)
-      batch.translucent = std::any_of(batch.instances.begin(), batch.instances.end(), isTranslucent);
+    if (batch.revision == revision_) {
+      batch.layers = 0;
+      for (const Instance& i : batch.instances) batch.layers |= uint32_t(layerOf(i));
+    }
   }
 }
 

@@ -46,8 +46,18 @@ struct Instance {
 };
 static_assert(sizeof(Instance) == 52);
 
-inline bool isTranslucent(const Instance& i) {
-  return i.finish == uint32_t(pfx::Finish::Translucent) || i.color >> 24 != 255;
+// How an instance is drawn. Shiny ones mirror the sky. Floors are large fixed slabs: they get a metre grid,
+// fade away in the distance and throw no shadow, which would make the shadow map too coarse for everything on
+// them.
+enum class Layer : uint32_t { Plain = 1, Shiny = 2, Floor = 4, Translucent = 8 };
+inline constexpr float kFloorHalfExtent = 8.0f;  // m, the smaller horizontal one
+
+inline Layer layerOf(const Instance& i) {
+  const auto finish = pfx::Finish(i.finish);
+  if (finish == pfx::Finish::Translucent || i.color >> 24 != 255) return Layer::Translucent;
+  if (finish == pfx::Finish::Glossy || finish == pfx::Finish::Metallic) return Layer::Shiny;
+  const bool large = i.scale.x() >= kFloorHalfExtent && i.scale.z() >= kFloorHalfExtent;
+  return finish == pfx::Finish::Matte && large ? Layer::Floor : Layer::Plain;
 }
 
 struct Line {
@@ -84,7 +94,7 @@ struct Label {
 };
 
 struct Sun {
-  pfx::Vec3 direction = pfx::Vec3(-0.48f, -0.76f, -0.43f);  // of the light, need not be unit
+  pfx::Vec3 direction = pfx::Vec3(0.52f, -0.74f, -0.36f);  // of the light, need not be unit
   bool shadows = true;
   bool operator==(const Sun&) const = default;
 };
@@ -103,9 +113,9 @@ struct Batch {
   // (ceil(instances / kBlock)) revision of the list at the last change. Revisions are unique in the process:
   // a block of this mesh with the same revision has the same content, in whichever list.
   std::vector<uint64_t> block_revisions;
-  uint64_t revision = 0;     // of the last change of anything in it, its length included
-  bool translucent = false;  // some instance may let light through
-  size_t recorded = 0;       // instances of the frame that is being recorded
+  uint64_t revision = 0;  // of the last change of anything in it, its length included
+  uint32_t layers = 0;    // bits of the layers that its instances are in
+  size_t recorded = 0;    // instances of the frame that is being recorded
 };
 
 class DrawList {

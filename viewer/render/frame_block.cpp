@@ -12,12 +12,6 @@ namespace {
 
 using pfx::Vec3;
 
-// Floors are lit but throw no shadow that matters; they would make the map too coarse for everything else.
-constexpr float kFloorSize = 8.0f;  // m, smaller horizontal half extent
-bool isFloor(const Instance& i) {
-  return i.finish == uint32_t(pfx::Finish::Matte) && std::min(i.scale.x(), i.scale.z()) >= kFloorSize;
-}
-
 pfx::Aabb meshBounds(const MeshData& mesh) {
   pfx::Aabb box;
   for (const MeshVertex& v : mesh.vertices) box.extend(v.position);
@@ -40,7 +34,7 @@ pfx::Aabb casterBounds(const DrawList& list) {
     const pfx::Aabb bounds =
         mesh == list.meshes().end() ? pfx::Aabb{-Vec3::Ones(), Vec3::Ones()} : meshBounds(mesh->second);
     for (const Instance& i : batch.instances) {
-      if (isFloor(i)) continue;
+      if (layerOf(i) == Layer::Floor || layerOf(i) == Layer::Translucent) continue;
       const Vec3 center =
           mesh == list.meshes().end() ? Vec3(Vec3::Zero()) : Vec3(bounds.center().cwiseProduct(i.scale));
       const pfx::Aabb box =
@@ -102,9 +96,10 @@ FrameBlock makeFrameBlock(const DrawList& list, const FrameSize& size, const Sun
   f.sun = with(sun.to_sun, list.sun.shadows && !sun.empty ? 1.0f : 0.0f);
   const float w = float(size.width * size.side), h = float(size.height * size.side);
   f.viewport = Vec4(w, h, 1.0f / w, 1.0f / h);
-  f.shadow = Vec4(1.0f / float(map_size), sun.texel_m, map_size > 1024 ? 1.0f : 0.0f, 0.0f);
+  f.shadow = Vec4(1.0f / float(map_size), sun.texel_m, map_size > 1024 ? 3.2f : 1.8f, 0.0f);
   const float distance = (c.target - c.eye).norm();
-  f.fog = Vec4(2.5f * distance, 1.0f / (5.0f * distance + 1e-6f), float(size.side), 0.0f);
+  f.fog = Vec4(3.0f * distance, 1.0f / (6.0f * distance + 1e-6f), float(size.side), 0.0f);
+  f.floor_fade = with(c.target, 1.0f / (1.4f * distance + 1e-3f));
   return f;
 }
 

@@ -10,9 +10,9 @@ using Vec4 = Eigen::Matrix<float, 4, 1, Eigen::DontAlign>;
 struct FrameBlock {
   Mat4 clip_from_world;
   Mat4 sun_from_world;
-  Vec4 eye, ray_right, ray_up, ray_forward, sun, viewport, shadow, fog;
+  Vec4 eye, ray_right, ray_up, ray_forward, sun, viewport, shadow, fog, floor_fade;
 };
-static_assert(sizeof(FrameBlock) == 2 * 64 + 8 * 16);
+static_assert(sizeof(FrameBlock) == 2 * 64 + 9 * 16);
 
 // The sun's orthographic view of what can throw a shadow into the picture.
 struct SunView {

@@ -133,7 +133,7 @@ void layScaleBar(TextLayout& layout, const Camera& camera, const LabelPass::Inpu
 
 LabelPass::LabelPass(const Gl& gl, const std::string& shaders)
     : gl_(&gl),
-      program_(gl, {"label.vert.glsl", "label.frag.glsl", "", shaders}),
+      program_(gl, {"label.vert.glsl", "label.frag.glsl", {}, shaders}),
       array_(gl),
       buffer_(gl),
       font_texture_(gl),

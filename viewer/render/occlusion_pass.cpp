@@ -5,8 +5,8 @@ namespace viewer {
 
 OcclusionPass::OcclusionPass(const Gl& gl, const std::string& shaders)
     : gl_(&gl),
-      estimate_(gl, {"fullscreen.vert.glsl", "occlusion.frag.glsl", "", shaders}),
-      blur_(gl, {"fullscreen.vert.glsl", "occlusion_blur.frag.glsl", "", shaders}),
+      estimate_(gl, {"fullscreen.vert.glsl", "occlusion.frag.glsl", {}, shaders}),
+      blur_(gl, {"fullscreen.vert.glsl", "occlusion_blur.frag.glsl", {}, shaders}),
       array_(gl) {}
 
 void OcclusionPass::draw(const Target& scene, const FrameBlock& frame, float radius_m) {

@@ -35,8 +35,8 @@ std::vector<Segment> segmentsOf(const DrawList& list) {
 
 OverlayPass::OverlayPass(const Gl& gl, const std::string& shaders)
     : gl_(&gl),
-      color_(gl, {"overlay.vert.glsl", "overlay.frag.glsl", "PASS_COLOR", shaders}),
-      ids_(gl, {"overlay.vert.glsl", "overlay.frag.glsl", "PASS_ID", shaders}),
+      color_(gl, {"overlay.vert.glsl", "overlay.frag.glsl", {"PASS_COLOR"}, shaders}),
+      ids_(gl, {"overlay.vert.glsl", "overlay.frag.glsl", {"PASS_ID"}, shaders}),
       array_(gl),
       buffer_(gl) {
   gl.BindVertexArray(array_.id());

@@ -34,18 +34,18 @@ class ShadowPass {
 // Lit solids.
 class SolidPass {
  public:
-  struct Input {
-    const FrameBlock* frame;
-    GLuint shadow_map;
-    bool translucent;
-    float wire;  // strength of the edges between smooth faces, 0 .. 1
+  struct Options {
+    bool wide_shadow;  // softer shadows, twice the look-ups
+    bool wire;         // shows all edges of triangles
   };
-  SolidPass(const Gl& gl, const std::string& shaders);
-  void draw(std::span<const SolidDraw> draws, const Input& input) const;
+  SolidPass(const Gl& gl, const std::string& shaders, const Options& options);
+  void draw(std::span<const SolidDraw> draws, const FrameBlock& frame, GLuint shadow_map) const;
+  void drawTranslucent(std::span<const SolidDraw> draws, const FrameBlock& frame, GLuint shadow_map) const;
 
  private:
+  void useShadow(GLuint shadow_map) const;
   const Gl* gl_;
-  Program triangles_, round_;
+  Program plain_, shiny_, floor_, plain_round_, shiny_round_;
 };
 
 // The sky where nothing was drawn.

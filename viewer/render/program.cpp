@@ -9,10 +9,10 @@ namespace viewer {
 
 namespace {
 
-GLuint compile(const Gl& gl, GLenum stage, const std::string& name, const ProgramSource& source) {
+GLuint compile(const Gl& gl, GLenum stage, const std::string& file, const ProgramSource& source) {
   std::string text = "#version 330 core\n";
-  if (!source.define.empty()) text += "#define " + source.define + "\n";
-  text += shaderSource(name, source.dir);
+  for (const std::string& name : source.defines) text += "#define " + name + "\n";
+  text += shaderSource(file, source.dir);
   const GLuint shader = gl.CreateShader(stage);
   const char* chars = text.c_str();
   gl.ShaderSource(shader, 1, &chars, nullptr);
@@ -23,7 +23,7 @@ GLuint compile(const Gl& gl, GLenum stage, const std::string& name, const Progra
   std::array<char, 2048> log{};
   gl.GetShaderInfoLog(shader, GLsizei(log.size()), nullptr, log.data());
   gl.DeleteShader(shader);
-  throw RenderError("shader " + name + ": " + log.data());
+  throw RenderError("shader " + file + ": " + log.data());
 }
 
 }  // namespace

@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "viewer/draw_list/camera.h"
 #include "viewer/render/gl_objects.h"
@@ -10,8 +11,8 @@ namespace viewer {
 
 struct ProgramSource {
   std::string vertex, fragment;  // file names in shaders/
-  std::string define;            // one name to define, or empty
-  std::string dir;               // of the shaders, or empty: built in
+  std::vector<std::string> defines;
+  std::string dir;  // of the shaders, or empty: built in
 };
 
 class Program {

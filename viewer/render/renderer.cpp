@@ -62,7 +62,7 @@ struct Renderer::Impl {
         gl(c.gl()),
         quality(settingsOf(p.quality)),
         shadow(gl, p.shader_dir, quality.shadow_map),
-        solids(gl, p.shader_dir),
+        solids(gl, p.shader_dir, {.wide_shadow = quality.shadow_map > 1024, .wire = p.wire}),
         sky(gl, p.shader_dir),
         occlusion(gl, p.shader_dir),
         overlay(gl, p.shader_dir),
@@ -91,13 +91,13 @@ struct Renderer::Impl {
     apply(gl, {.depth = Depth::TestAndWrite});
     gl.ClearDepth(1.0);
     gl.Clear(GL_DEPTH_BUFFER_BIT);
-    solids.draw(store.draws(), {&block, shadow.map(), false, 0.0f});
+    solids.draw(store.draws(), block, shadow.map());
     if (quality.occlusion) {
       occlusion.draw(scene, block, 0.06f * (list.camera.target - list.camera.eye).norm());
       scene.bind();
     }
     sky.draw();
-    solids.draw(store.translucentDraws(), {&block, shadow.map(), true, 0.0f});
+    solids.drawTranslucent(store.translucentDraws(), block, shadow.map());
     overlay.draw(scene.width(), scene.height(), quality.side);
   }
 

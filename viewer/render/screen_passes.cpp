@@ -4,7 +4,7 @@
 namespace viewer {
 
 SkyPass::SkyPass(const Gl& gl, const std::string& shaders)
-    : gl_(&gl), program_(gl, {"fullscreen.vert.glsl", "sky.frag.glsl", "", shaders}), array_(gl) {}
+    : gl_(&gl), program_(gl, {"fullscreen.vert.glsl", "sky.frag.glsl", {}, shaders}), array_(gl) {}
 
 void SkyPass::draw() const {
   // The triangle lies on the far plane: it passes only where nothing nearer was drawn.
@@ -15,7 +15,7 @@ void SkyPass::draw() const {
 }
 
 ResolvePass::ResolvePass(const Gl& gl, const std::string& shaders)
-    : gl_(&gl), program_(gl, {"fullscreen.vert.glsl", "resolve.frag.glsl", "", shaders}), array_(gl) {}
+    : gl_(&gl), program_(gl, {"fullscreen.vert.glsl", "resolve.frag.glsl", {}, shaders}), array_(gl) {}
 
 void ResolvePass::draw(GLuint samples, int side) const {
   apply(*gl_, {});
@@ -27,7 +27,7 @@ void ResolvePass::draw(GLuint samples, int side) const {
 }
 
 OutlinePass::OutlinePass(const Gl& gl, const std::string& shaders)
-    : gl_(&gl), program_(gl, {"fullscreen.vert.glsl", "outline.frag.glsl", "", shaders}), array_(gl) {}
+    : gl_(&gl), program_(gl, {"fullscreen.vert.glsl", "outline.frag.glsl", {}, shaders}), array_(gl) {}
 
 void OutlinePass::draw(GLuint ids, uint32_t selected) const {
   apply(*gl_, {.blend = Blend::Alpha});

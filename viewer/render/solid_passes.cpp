@@ -1,48 +1,58 @@
-// Shadow map, lit solids and pick ids: the three passes that draw the instances of the solid store.
+// Shadow map, lit solids and pick ids: the passes that draw the instances of the solid store.
 #include "viewer/render/passes.h"
 
 namespace viewer {
 
 namespace {
 
-enum class Layer : int { Opaque = 0, Translucent = 1, All = 2 };
+constexpr uint32_t kPlain = uint32_t(Layer::Plain), kShiny = uint32_t(Layer::Shiny),
+                   kFloor = uint32_t(Layer::Floor), kTranslucent = uint32_t(Layer::Translucent),
+                   kAll = kPlain | kShiny | kFloor | kTranslucent;
 
 struct Eye {
   Mat4 clip;
   Eigen::Vector4f rays;  // eye with 1, or direction of all rays with 0
-  Layer layer;
 };
 
-// Triangles with one program, round things with the other. Triangles show their front; of the boxes round
-// spheres and capsules the back is drawn, which is there even when the eye is inside.
-void drawSolids(const Gl& gl, std::span<const SolidDraw> draws, const Program& triangles,
-                const Program& round, GlState state, const Eye& eye) {
-  for (const bool want_round : {false, true}) {
-    const Program& program = want_round ? round : triangles;
+Eye eyeOf(const FrameBlock& f) { return {f.clip_from_world, f.eye.w() > 0.5f ? f.eye : f.ray_forward}; }
+
+// Draws one kind of solid (round or of triangles) in some layers. Triangles show their front; of the boxes
+// round spheres and capsules the back is drawn, which is there even when the eye is inside.
+struct SolidPrograms {
+  const Gl& gl;
+  GlState state;
+  Eye eye;
+
+  void draw(std::span<const SolidDraw> draws, const Program& program, bool round, uint32_t layers) {
     program.use();
     program.set("u_clip", eye.clip);
     program.set("u_eye", eye.rays);
-    state.cull = want_round ? Cull::Front : Cull::Back;
+    program.set("u_layers", layers);
+    state.cull = round ? Cull::Front : Cull::Back;
     apply(gl, state);
     for (const SolidDraw& d : draws) {
-      if (d.round != want_round) continue;
-      // A batch without translucent instances needs no sorting out in the shader.
-      program.set("u_layer", int(eye.layer == Layer::Opaque && !d.translucent ? Layer::All : eye.layer));
+      if (d.round != round || !(d.layers & layers)) continue;
       gl.BindVertexArray(d.vertex_array);
       gl.DrawArraysInstanced(GL_TRIANGLES, 0, d.vertices, d.instances);
     }
+    gl.BindVertexArray(0);
   }
-  gl.BindVertexArray(0);
-}
+};
 
-Eigen::Vector4f raysOf(const FrameBlock& f) { return f.eye.w() > 0.5f ? f.eye : f.ray_forward; }
+std::vector<std::string> defines(std::initializer_list<const char*> names,
+                                 const SolidPass::Options& options) {
+  std::vector<std::string> all(names.begin(), names.end());
+  if (options.wide_shadow) all.push_back("WIDE_SHADOW");
+  if (options.wire) all.push_back("WIRE");
+  return all;
+}
 
 }  // namespace
 
 ShadowPass::ShadowPass(const Gl& gl, const std::string& shaders, int map_size)
     : gl_(&gl),
-      triangles_(gl, {"solid_plain.vert.glsl", "solid_plain.frag.glsl", "PASS_DEPTH", shaders}),
-      round_(gl, {"round.vert.glsl", "round.frag.glsl", "PASS_DEPTH", shaders}),
+      triangles_(gl, {"solid_plain.vert.glsl", "solid_plain.frag.glsl", {"PASS_DEPTH"}, shaders}),
+      round_(gl, {"round.vert.glsl", "round.frag.glsl", {"PASS_DEPTH"}, shaders}),
       target_(gl, map_size, map_size, {.color = 0, .depth = true, .compare = true}) {}
 
 void ShadowPass::draw(std::span<const SolidDraw> draws, const SunView& sun) const {
@@ -52,37 +62,55 @@ void ShadowPass::draw(std::span<const SolidDraw> draws, const SunView& sun) cons
   gl_->Clear(GL_DEPTH_BUFFER_BIT);
   if (sun.empty) return;
   const Eigen::Vector4f rays(-sun.to_sun.x(), -sun.to_sun.y(), -sun.to_sun.z(), 0.0f);
-  drawSolids(*gl_, draws, triangles_, round_, {.depth = Depth::TestAndWrite, .color = false},
-             {sun.clip_from_world, rays, Layer::Opaque});
+  SolidPrograms pass{*gl_, {.depth = Depth::TestAndWrite, .color = false}, {sun.clip_from_world, rays}};
+  pass.draw(draws, triangles_, false, kPlain | kShiny);
+  pass.draw(draws, round_, true, kPlain | kShiny);
 }
 
-SolidPass::SolidPass(const Gl& gl, const std::string& shaders)
+SolidPass::SolidPass(const Gl& gl, const std::string& shaders, const Options& options)
     : gl_(&gl),
-      triangles_(gl, {"solid.vert.glsl", "solid.frag.glsl", "PASS_COLOR", shaders}),
-      round_(gl, {"round.vert.glsl", "round.frag.glsl", "PASS_COLOR", shaders}) {}
+      plain_(gl, {"solid.vert.glsl", "solid.frag.glsl", defines({}, options), shaders}),
+      shiny_(gl, {"solid.vert.glsl", "solid.frag.glsl", defines({"SHINY"}, options), shaders}),
+      floor_(gl, {"solid.vert.glsl", "floor.frag.glsl", defines({}, options), shaders}),
+      plain_round_(gl, {"round.vert.glsl", "round.frag.glsl", defines({"PASS_COLOR"}, options), shaders}),
+      shiny_round_(
+          gl, {"round.vert.glsl", "round.frag.glsl", defines({"PASS_COLOR", "SHINY"}, options), shaders}) {}
 
-void SolidPass::draw(std::span<const SolidDraw> draws, const Input& input) const {
-  if (draws.empty()) return;
-  for (const Program* program : {&triangles_, &round_}) {
+void SolidPass::useShadow(GLuint shadow_map) const {
+  for (const Program* program : {&plain_, &shiny_, &floor_, &plain_round_, &shiny_round_}) {
     program->use();
-    program->bind("t_shadow", 0, input.shadow_map);
-    program->set("u_wire", input.wire);
+    program->bind("t_shadow", 0, shadow_map);
   }
-  const GlState opaque = {.depth = Depth::TestAndWrite};
-  const GlState through = {.depth = Depth::Test, .blend = Blend::Alpha};
-  drawSolids(*gl_, draws, triangles_, round_, input.translucent ? through : opaque,
-             {input.frame->clip_from_world, raysOf(*input.frame),
-              input.translucent ? Layer::Translucent : Layer::Opaque});
+}
+
+void SolidPass::draw(std::span<const SolidDraw> draws, const FrameBlock& frame, GLuint shadow_map) const {
+  useShadow(shadow_map);
+  SolidPrograms pass{*gl_, {.depth = Depth::TestAndWrite}, eyeOf(frame)};
+  pass.draw(draws, plain_, false, kPlain);
+  pass.draw(draws, shiny_, false, kShiny);
+  pass.draw(draws, plain_round_, true, kPlain);
+  pass.draw(draws, shiny_round_, true, kShiny);
+  // Last, since most of a floor is behind something or alone: little is shaded twice.
+  pass.draw(draws, floor_, false, kFloor);
+}
+
+void SolidPass::drawTranslucent(std::span<const SolidDraw> draws, const FrameBlock& frame,
+                                GLuint shadow_map) const {
+  if (draws.empty()) return;
+  useShadow(shadow_map);
+  SolidPrograms pass{*gl_, {.depth = Depth::Test, .blend = Blend::Alpha}, eyeOf(frame)};
+  for (const SolidDraw& d : draws) pass.draw({&d, 1}, d.round ? shiny_round_ : shiny_, d.round, kTranslucent);
 }
 
 IdPass::IdPass(const Gl& gl, const std::string& shaders)
     : gl_(&gl),
-      triangles_(gl, {"solid_plain.vert.glsl", "solid_plain.frag.glsl", "PASS_ID", shaders}),
-      round_(gl, {"round.vert.glsl", "round.frag.glsl", "PASS_ID", shaders}) {}
+      triangles_(gl, {"solid_plain.vert.glsl", "solid_plain.frag.glsl", {"PASS_ID"}, shaders}),
+      round_(gl, {"round.vert.glsl", "round.frag.glsl", {"PASS_ID"}, shaders}) {}
 
 void IdPass::draw(std::span<const SolidDraw> draws, const FrameBlock& frame) const {
-  drawSolids(*gl_, draws, triangles_, round_, {.depth = Depth::TestAndWrite},
-             {frame.clip_from_world, raysOf(frame), Layer::All});
+  SolidPrograms pass{*gl_, {.depth = Depth::TestAndWrite}, eyeOf(frame)};
+  pass.draw(draws, triangles_, false, kAll);
+  pass.draw(draws, round_, true, kAll);
 }
 
 }  // namespace viewer

@@ -59,7 +59,7 @@ SolidDraw SolidStore::describe(GLuint array, const Mesh& mesh, GLuint instances,
   bindFloats(*gl_, 6, {4, GL_UNSIGNED_BYTE, base + offsetof(Instance, color)}, kInstance, 1);
   bindInteger(*gl_, 7, base + offsetof(Instance, finish), kInstance);
   bindInteger(*gl_, 8, base + offsetof(Instance, pick), kInstance);
-  return {array, mesh.count, 0, false, false};
+  return {array, mesh.count, 0, false, 0};
 }
 
 void SolidStore::send(Instances& to, const Batch& batch) {
@@ -102,7 +102,7 @@ size_t SolidStore::update(const DrawList& list) {
     }
     send(found->second, batch);
     draws_.push_back({found->second.array.id(), shape.count, GLsizei(batch.instances.size()), key == kRound,
-                      batch.translucent});
+                      batch.layers});
   }
   sortTranslucent(list);
   gl_->BindVertexArray(0);
@@ -118,9 +118,10 @@ void SolidStore::sortTranslucent(const DrawList& list) {
   std::vector<Item> items;
   const CameraAxes view = axes(list.camera);
   for (const auto& [key, batch] : list.batches())
-    if (batch.translucent)
+    if (batch.layers & uint32_t(Layer::Translucent))
       for (const Instance& i : batch.instances)
-        if (isTranslucent(i)) items.push_back({(i.position - list.camera.eye).dot(view.forward), key, &i});
+        if (layerOf(i) == Layer::Translucent)
+          items.push_back({(i.position - list.camera.eye).dot(view.forward), key, &i});
   translucent_.clear();
   if (items.empty()) return;
   std::stable_sort(items.begin(), items.end(),
@@ -141,7 +142,7 @@ void SolidStore::sortTranslucent(const DrawList& list) {
                               sorted_.id(), first);
     draw.instances = GLsizei(end - first);
     draw.round = items[first].mesh == kRound;
-    draw.translucent = true;
+    draw.layers = uint32_t(Layer::Translucent);
     translucent_.push_back(draw);
     first = end;
   }

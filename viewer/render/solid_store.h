@@ -13,8 +13,8 @@ namespace viewer {
 struct SolidDraw {
   GLuint vertex_array;
   GLsizei vertices, instances;
-  bool round;        // drawn as a ray-cast capsule
-  bool translucent;  // some instance is
+  bool round;       // drawn as a ray-cast capsule
+  uint32_t layers;  // bits of the layers of its instances
 };
 
 class SolidStore {

@@ -8,7 +8,7 @@ namespace viewer {
 
 UiPass::UiPass(const Gl& gl, const std::string& shaders)
     : gl_(&gl),
-      program_(gl, {"ui.vert.glsl", "ui.frag.glsl", "", shaders}),
+      program_(gl, {"ui.vert.glsl", "ui.frag.glsl", {}, shaders}),
       array_(gl),
       vertices_(gl),
       indices_(gl) {
