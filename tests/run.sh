@@ -33,13 +33,14 @@ buildPreset release all -DVITRINE_TESTS=ON
 runTests release
 
 if [ "$quick" = no ]; then
-  # Without a display library in the way, and only the tests that read foreign input or share work between threads.
-  buildPreset asan-ubsan all -DVITRINE_VIEWER=OFF
-  runTests asan-ubsan -LE slow
-  buildPreset tsan unit_tests -DVITRINE_VIEWER=OFF
-  runTests tsan -R 'unit/.*(TaskManager|World|Parallel|Worker)'
+  # The engine alone. The address sanitizer has every unit test and foreign input to look at, the thread sanitizer what
+  # shares work between threads.
+  buildPreset asan-ubsan sanitized_tests -DVITRINE_VIEWER=OFF
+  runTests asan-ubsan -R '^(unit|fuzz|determinism)/'
+  buildPreset tsan sanitized_tests -DVITRINE_VIEWER=OFF
+  runTests tsan -R '^determinism/|^unit/.*(Task|World|Worker|Parallel|Thread)'
 fi
 
-say "summary"
+say "summary after $((SECONDS / 60)) min $((SECONDS % 60)) s"
 printf '%s\n' "${summary[@]}"
 exit "$failed"

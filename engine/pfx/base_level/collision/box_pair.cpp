@@ -1,5 +1,6 @@
 // Box against box: separating axes (S. Gottschalk et al., OBBTree, SIGGRAPH 1996), then clipping of the two faces or the
 // closest points of two edges.
+#include <algorithm>
 #include <cmath>
 
 #include "pfx/base_level/collision/contact_clipping.h"
@@ -14,6 +15,8 @@ namespace {
 constexpr float kPreference = 5e-6f;
 // The axis of the last frame is kept until another one beats it by this fraction of the smaller box.
 constexpr float kHysteresis = 1e-3f;
+// Below this gap, as a fraction of the boxes' size, the direction between the closest points is mostly rounding.
+constexpr float kNear = 1e-4f;
 
 struct Axis {
   float separation = -1e30f;
@@ -96,8 +99,9 @@ void faceContact(const Axis& axis, const BoxPolytope& a, const BoxPolytope& b, c
   }
 }
 
-// The two edges that support the axis: half extents along the edge, signs of the axis across it.
-void edgeContact(const Axis& axis, const Vec3& ha, const Vec3& hb, const LocalPair& pair, LocalManifold& m) {
+// The two edges that support the axis: half extents along the edge, signs of the axis across it. Returns the distance of
+// their closest points.
+float edgeContact(const Axis& axis, const Vec3& ha, const Vec3& hb, const LocalPair& pair, LocalManifold& m) {
   const int i = (axis.code - 7) / 3, j = (axis.code - 7) % 3;
   const Vec3 n_b = -pair.b_in_a.rotateToB(axis.normal);
   Vec3 a0 = ha, b0 = hb;
@@ -115,9 +119,10 @@ void edgeContact(const Axis& axis, const Vec3& ha, const Vec3& hb, const LocalPa
   const SegmentPair at = closestOnSegments(a0, a1, b0, b1);
   const Vec3 p = a0 + at.s * (a1 - a0), q = b0 + at.t * (b1 - b0);
   m.add({p, q, (q - p).dot(axis.normal), uint32_t(axis.code) << 8 | signs});
+  return (q - p).norm();
 }
 
-// Corner against corner: the boxes are near each other, but no face lies over the other.
+// Corner or edge against edge: the closest points lie on no face.
 void closestPoints(const Box& a, const Box& b, const Axis& axis, const LocalPair& pair, LocalResult& result) {
   const GjkResult gjk = gjkDistance({boxCore(a), boxCore(b), pair.b_in_a, axis.normal, pair.margin});
   if (gjk.state == GjkResult::State::Touching) {
@@ -152,12 +157,16 @@ void collideBoxBox(const LocalPair& pair, LocalResult& result) {
 
   result.hint = uint32_t(axis.code);
   result.manifold.normal = axis.normal;
+  float reached;  // by the points; the axis is right for a gap when it is the gap
   if (axis.code <= 6) {
     faceContact(axis, BoxPolytope(ha), BoxPolytope(hb), pair, result.manifold);
+    reached = deepest(result.manifold);
   } else {
-    edgeContact(axis, ha, hb, pair, result.manifold);
-    if (axis.separation > 0.0f && result.manifold.points[0].distance > pair.margin) result.manifold.num_points = 0;
+    reached = edgeContact(axis, ha, hb, pair, result.manifold);
   }
+  const float near = kNear * (ha.minCoeff() + hb.minCoeff());
+  const bool corner = axis.separation > near && reached > axis.separation + kPreference * (ha.sum() + hb.sum());
+  if (corner) result.manifold.num_points = 0;
   if (result.manifold.num_points == 0) closestPoints(a, b, axis, pair, result);
 }
 

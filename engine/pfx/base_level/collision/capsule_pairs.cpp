@@ -1,4 +1,4 @@
-// Capsule against capsule and box. A capsule that lies along its partner gets two points, else one.
+// Capsule against capsule, box and convex mesh. A capsule that lies along its partner gets two points, else one.
 #include <algorithm>
 #include <cmath>
 
@@ -67,6 +67,17 @@ void collideBoxCapsule(const LocalPair& pair, LocalResult& result) {
   const BoxPolytope storage(box.half_extent);
   const Polytope polytope = storage.view();
   collidePolytopeCapsule(polytope, boxCore(box), std::get<Capsule>(pair.b), pair, result);
+}
+
+void collideConvexCapsule(const LocalPair& pair, LocalResult& result) {
+  const Polytope polytope = std::get<const ConvexMesh*>(pair.a)->view();
+  collidePolytopeCapsule(polytope, polytopeCore(polytope), std::get<Capsule>(pair.b), pair, result);
+}
+
+void collideConvexSphere(const LocalPair& pair, LocalResult& result) {
+  const Polytope polytope = std::get<const ConvexMesh*>(pair.a)->view();
+  const Capsule ball{0.0f, std::get<Sphere>(pair.b).radius};
+  collidePolytopeCapsule(polytope, polytopeCore(polytope), ball, pair, result);
 }
 
 }  // namespace pfx

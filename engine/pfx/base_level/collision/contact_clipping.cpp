@@ -62,6 +62,18 @@ uint32_t supportingFace(const Polytope& polytope, const Vec3& direction) {
   return best;
 }
 
+uint32_t supportingFaceAt(const Polytope& polytope, const Vec3& direction, uint32_t vertex) {
+  uint32_t best = 0;
+  float cosine = -2.0f;
+  for (uint32_t f = 0; f < polytope.planes.size(); ++f) {
+    const float c = polytope.planes[f].normal.dot(direction);
+    if (!(c > cosine)) continue;
+    const auto loop = polytope.face(f);
+    if (std::find(loop.begin(), loop.end(), uint16_t(vertex)) != loop.end()) cosine = c, best = f;
+  }
+  return best;
+}
+
 void loadFace(const Polytope& polytope, uint32_t face, ContactPolygon& polygon) {
   polygon.normal = polytope.planes[face].normal;
   polygon.id = face;

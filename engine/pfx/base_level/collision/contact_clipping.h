@@ -17,6 +17,10 @@ struct ContactPolygon {
 // The face of a polytope whose normal is closest to `direction` (frame of the polytope).
 uint32_t supportingFace(const Polytope& polytope, const Vec3& direction);
 
+// The same among the faces that have `vertex` as a corner: the face that a shape turns to its partner when that corner is
+// the one that reaches farthest.
+uint32_t supportingFaceAt(const Polytope& polytope, const Vec3& direction, uint32_t vertex);
+
 void loadFace(const Polytope& polytope, uint32_t face, ContactPolygon& polygon);
 void loadFace(const Polytope& polytope, uint32_t face, const RelativePose& pose, ContactPolygon& polygon);
 

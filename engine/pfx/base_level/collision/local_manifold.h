@@ -24,6 +24,13 @@ struct LocalManifold {
   void add(const LocalContact& c) { points[num_points++] = c; }
 };
 
+// Smallest distance of its points; a large number when there is none (m).
+inline float deepest(const LocalManifold& m) {
+  float distance = 1e30f;
+  for (int i = 0; i < m.num_points; ++i) distance = m.points[i].distance < distance ? m.points[i].distance : distance;
+  return distance;
+}
+
 // Pose of B seen from A, with the rotation as a matrix because many points go through it.
 struct RelativePose {
   Mat3 rotation = Mat3::Identity();

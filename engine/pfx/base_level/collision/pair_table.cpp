@@ -10,15 +10,16 @@
 namespace pfx {
 namespace {
 
-// Upper triangle: the first shape of a function has the lower type.
+// First shape by row, second by column. Of the two entries of an unequal pair one is set.
+constexpr PairFunction kNone = nullptr;
 constexpr PairFunction kTable[kNumShapeTypes][kNumShapeTypes] = {
-    // Sphere               Box               Capsule                Cylinder  ConvexMesh  LargeMesh
-    {collideSphereSphere, collideSphereBox, collideSphereCapsule, nullptr, nullptr, nullptr},   // Sphere
-    {nullptr, collideBoxBox, collideBoxCapsule, nullptr, nullptr, nullptr},                     // Box
-    {nullptr, nullptr, collideCapsuleCapsule, nullptr, nullptr, nullptr},                       // Capsule
-    {nullptr, nullptr, nullptr, nullptr, nullptr, nullptr},                                     // Cylinder
-    {nullptr, nullptr, nullptr, nullptr, nullptr, nullptr},                                     // ConvexMesh
-    {nullptr, nullptr, nullptr, nullptr, nullptr, nullptr},                                     // LargeMesh
+    // Sphere            Box                 Capsule                 Cylinder                 ConvexMesh
+    {collideSphereSphere, collideSphereBox, collideSphereCapsule, collideSphereCylinder, kNone, kNone},  // Sphere
+    {kNone, collideBoxBox, collideBoxCapsule, kNone, kNone, kNone},                                      // Box
+    {kNone, kNone, collideCapsuleCapsule, kNone, kNone, kNone},                                          // Capsule
+    {kNone, collideCylinderBox, collideCylinderCapsule, collideCylinderCylinder, collideCylinderConvex, kNone},
+    {collideConvexSphere, collideConvexBox, collideConvexCapsule, kNone, collideConvexConvex, kNone},  // ConvexMesh
+    {kNone, kNone, kNone, kNone, kNone, kNone},                                                        // LargeMesh
 };
 
 float outerRadius(const Geometry& geometry) {
@@ -86,7 +87,7 @@ int collideShapes(const CollideInput& in, ContactManifold& out) {
   const Transform bodies = relative(in.body_a, in.body_b);
   if (in.cache != nullptr && provablyApart(*in.cache, bodies, in.margin)) return 0;
 
-  const bool flipped = in.shape_a.type() > in.shape_b.type();
+  const bool flipped = pairFunction(in.shape_a.type(), in.shape_b.type()) == nullptr;
   const Shape& first = flipped ? in.shape_b : in.shape_a;
   const Shape& second = flipped ? in.shape_a : in.shape_b;
   const PairFunction collide = pairFunction(first.type(), second.type());

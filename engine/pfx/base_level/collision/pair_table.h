@@ -41,7 +41,7 @@ int collideShapes(const CollideInput& input, ContactManifold& manifold);
 // moves a point of B by at most c * radius_b.
 bool provablyApart(const PairCache& cache, const Transform& body_b_in_a, float margin);
 
-// The pair functions: what every entry of the table takes. The first shape has the lower ShapeType.
+// The pair functions: what every entry of the table takes. In this record A is the first shape of the entry.
 struct LocalPair {
   const Geometry& a;
   const Geometry& b;
@@ -59,7 +59,7 @@ struct LocalResult {
 
 using PairFunction = void (*)(const LocalPair&, LocalResult&);
 
-// The table, visible to tests: row and column by ShapeType, row <= column; null where there is no function.
+// The table: null where there is no function. Of the two orders of an unequal pair one has a function.
 PairFunction pairFunction(ShapeType a, ShapeType b);
 
 }  // namespace pfx

@@ -1,4 +1,4 @@
-// Sphere against sphere, box and capsule: closed forms, one point each.
+// Sphere against sphere, box, capsule and cylinder: closed forms, one point each.
 #include <algorithm>
 #include <cmath>
 
@@ -62,6 +62,41 @@ void collideSphereBox(const LocalPair& pair, LocalResult& result) {
   on_face[k] = sign * h[k];
   m.normal = pair.b_in_a.rotation.col(k) * -sign;
   m.add({radius * m.normal, pair.b_in_a.toA(on_face), -depth[k] - radius, 1});
+}
+
+void collideSphereCylinder(const LocalPair& pair, LocalResult& result) {
+  const float radius = std::get<Sphere>(pair.a).radius;
+  const Cylinder& cylinder = std::get<Cylinder>(pair.b);
+  const Vec3 c = pair.b_in_a.toB(Vec3::Zero());  // centre of the sphere, frame of the cylinder
+  const float radial = std::sqrt(c.y() * c.y() + c.z() * c.z());
+  const Vec3 outward = radial > 0.0f ? Vec3(0.0f, c.y() / radial, c.z() / radial) : Vec3::UnitY();
+  const float x = std::clamp(c.x(), -cylinder.half_length, cylinder.half_length);
+  const Vec3 nearest = Vec3(x, 0.0f, 0.0f) + std::min(radial, cylinder.radius) * outward;
+  const float outside = (c - nearest).norm();
+
+  Vec3 normal, on_surface;  // of the cylinder, outwards, in its frame
+  float distance = 0.0f;
+  if (outside > 1e-6f * (cylinder.half_length + cylinder.radius)) {
+    normal = (c - nearest) / outside;
+    on_surface = nearest;
+    distance = outside - radius;
+  } else if (cylinder.half_length - std::abs(c.x()) < cylinder.radius - radial) {
+    const float sign = c.x() < 0.0f ? -1.0f : 1.0f;
+    normal = sign * Vec3::UnitX();
+    on_surface = Vec3(sign * cylinder.half_length, c.y(), c.z());
+    distance = std::abs(c.x()) - cylinder.half_length - radius;
+  } else {
+    normal = outward;
+    on_surface = Vec3(c.x(), 0.0f, 0.0f) + cylinder.radius * outward;
+    distance = radial - cylinder.radius - radius;
+  }
+  LocalManifold& m = result.manifold;
+  m.normal = pair.b_in_a.rotation * -normal;
+  if (distance > pair.margin) {
+    result.separation = distance;
+    return;
+  }
+  m.add({radius * m.normal, pair.b_in_a.toA(on_surface), distance, 1});
 }
 
 }  // namespace pfx

@@ -197,6 +197,10 @@ inline void warmStart(ContactRows* rows, uint32_t count, SolverBody* bodies,
   }
 }
 
+// Sweeps over the points of a manifold each time it is visited. The four points of a face work against each other; a
+// second sweep costs little while everything is at hand, and doubles the stiffness at which stacks stay calm.
+inline constexpr int kSweeps = 2;
+
 inline void push(ContactRows* rows, uint32_t count, SolverBody* bodies, const ContactSolveParams& params) {
   const F8 inv_h = F8::set(params.inv_h), slowest = F8::set(-params.max_push_speed);
   const F8 zero = F8::zero(), one = F8::set(1.0f);
@@ -207,8 +211,8 @@ inline void push(ContactRows* rows, uint32_t count, SolverBody* bodies, const Co
     const V8 n = V8::load(r.normal), shift = mb.dp - ma.dp;
     const F8 bias_rate = F8::load(r.bias_rate);
     const F8 mass_scale = F8::load(r.mass_scale), impulse_scale = F8::load(r.impulse_scale);
-    for (uint32_t i = 0; i < r.num_points; ++i) {
-      ContactPointRows& p = r.points[i];
+    for (uint32_t sweep = 0; sweep < kSweeps * r.num_points; ++sweep) {
+      ContactPointRows& p = r.points[sweep % r.num_points];
       const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
       const F8 s = F8::load(p.separation) + dot(n, shift + (armShift(mb, arm_b) - armShift(ma, arm_a)));
       const F8 apart = s > zero;
@@ -273,8 +277,10 @@ inline void relax(ContactRows* rows, uint32_t count, SolverBody* bodies, const C
   for (uint32_t k = 0; k < count; ++k) {
     Batch c(rows[k], bodies);
     const V8 n = V8::load(rows[k].normal);
-    relaxNormals(c, n, inv_h);
-    solveFriction(c, n, spread);
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      relaxNormals(c, n, inv_h);
+      solveFriction(c, n, spread);
+    }
     c.store();
   }
 }

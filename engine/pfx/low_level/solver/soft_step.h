@@ -25,8 +25,8 @@ struct SoftStepParams {
   float h = 1.0f / 240.0f;  // s, of a sub-step
   int substeps = 4;
   bool warm_start = true;              // start from the impulses in the manifolds
-  float contact_frequency = 0.125f;    // of contacts, in units of 1/h; higher: stiffer, less calm
-  float contact_damping = 10.0f;       // damping ratio of contacts
+  float contact_frequency = 0.25f;     // of contacts, in units of 1/h; higher: stiffer, less calm
+  float contact_damping = 1.0f;        // damping ratio of contacts
   float max_push_speed = 3.0f;         // m/s
   float friction_spread = 0.6f;        // 0 .. 1, see ContactSolveParams
   float restitution_threshold = 0.5f;  // m/s
