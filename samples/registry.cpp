@@ -1,9 +1,23 @@
-#include "samples/scene.h"
+#include "samples/registry.h"
+
+#include <array>
 
 namespace samples {
+namespace {
+
+constexpr std::array kSamples = {simpleScenes, stableScenes};
+
+std::vector<SceneEntry> allScenes() {
+  std::vector<SceneEntry> all;
+  for (const auto sample : kSamples)
+    for (SceneEntry& entry : sample()) all.push_back(std::move(entry));
+  return all;
+}
+
+}  // namespace
 
 std::span<const SceneEntry> scenes() {
-  static const std::vector<SceneEntry> table;
+  static const std::vector<SceneEntry> table = allScenes();
   return table;
 }
 

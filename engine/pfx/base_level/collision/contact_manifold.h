@@ -26,7 +26,8 @@ struct ContactPoint {
 // Up to four points that share one normal. A pair of bodies has one manifold, or several when a body is a compound
 // or a mesh.
 struct ContactManifold {
-  Vec3 normal = Vec3::UnitY();  // unit, world, from A to B
+  Vec3 normal = Vec3::UnitY();        // unit, world, from A to B
+  Vec3 local_normal = Vec3::UnitY();  // the same in the frame of body A
   int num_points = 0;
   std::array<ContactPoint, kMaxContactPoints> points;
 };

@@ -1,8 +1,8 @@
 // Elementary functions with the same bits on every machine.
 //
-// The C library picks an implementation by processor, and the compiler may fold a call at compile time with another
-// rounding, so sin(1.0f) is not one number. These use only +, -, *, / and sqrt, in double, and are accurate to about
-// 1e-15 for |x| < 1e5; the float overloads round that result once.
+// The C library picks an implementation by processor, and the compiler may fold a call at compile time with
+// another rounding, so sin(1.0f) is not one number. These use only +, -, *, / and sqrt, in double, and are
+// accurate to about 1e-15 for |x| < 1e5; the float overloads round that result once.
 #pragma once
 
 namespace pfx {
@@ -46,6 +46,8 @@ inline float atan2(float y, float x) {
 }
 inline float exp(float x) { return static_cast<float>(exp(static_cast<double>(x))); }
 inline float log(float x) { return static_cast<float>(log(static_cast<double>(x))); }
-inline float pow(float x, float y) { return static_cast<float>(pow(static_cast<double>(x), static_cast<double>(y))); }
+inline float pow(float x, float y) {
+  return static_cast<float>(pow(static_cast<double>(x), static_cast<double>(y)));
+}
 
 }  // namespace pfx

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pfx/base_level/shape/convex_mesh.h"
+#include "pfx/base_level/shape/large_mesh.h"
 
 namespace pfx {
 namespace {
@@ -47,7 +48,9 @@ Aabb bounds(const ConvexMesh* mesh, const Transform& pose) {
   for (const Vec3& v : mesh->vertices) box.extend(Vec3(pose.position + r * v));
   return box;
 }
-Aabb bounds(const LargeMesh*, const Transform& pose) { return {pose.position, pose.position}; }
+Aabb bounds(const LargeMesh* mesh, const Transform& pose) {
+  return transformedAabb(pose, mesh->bounds.center(), mesh->bounds.halfExtent());
+}
 
 }  // namespace
 

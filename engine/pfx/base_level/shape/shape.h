@@ -20,8 +20,8 @@ enum class ShapeType : uint8_t { Sphere, Box, Capsule, Cylinder, ConvexMesh, Lar
 inline constexpr int kNumShapeTypes = 6;
 
 struct Shape {
-  Geometry geometry;
-  Transform offset;  // shape frame to body frame
+  Geometry geometry = {};
+  Transform offset = {};  // shape frame to body frame
 
   ShapeType type() const { return static_cast<ShapeType>(geometry.index()); }
 };

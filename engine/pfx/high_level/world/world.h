@@ -12,6 +12,7 @@
 #include "pfx/base_level/rigid_body/rigid_body.h"
 #include "pfx/base_level/rigid_body/rigid_state.h"
 #include "pfx/base_level/shape/collidable.h"
+#include "pfx/base_level/simd_level.h"
 
 namespace pfx {
 
@@ -26,6 +27,7 @@ struct WorldDef {
   Pipeline pipeline = Pipeline::Stable;
   int substeps = 4;          // solver sub-steps a step, >= 1; error of contacts and joints falls with its square, cost
                              // of the solver rises in proportion
+  SimdLevel simd = SimdLevel::Auto;  // widest kernels to use; the result is the same for all
   int workers = 1;           // threads, the caller included; the result is the same for any number
   bool sleeping = false;     // islands at rest are put to sleep
   float sleep_velocity = 0.1f;   // m/s and rad/s
@@ -35,12 +37,12 @@ struct WorldDef {
 };
 
 struct BodyDef {
-  std::string name;                      // for inspectors and files; need not be unique
-  Transform pose;                        // of the centre of mass
+  std::string name = {};                 // for inspectors and files; need not be unique
+  Transform pose = {};                   // of the centre of mass
   Vec3 linear_velocity = Vec3::Zero();   // m/s
   Vec3 angular_velocity = Vec3::Zero();  // rad/s, world axes
   MotionType motion_type = MotionType::Active;
-  std::vector<Shape> shapes;             // at least one; offsets are relative to the centre of mass
+  std::vector<Shape> shapes = {};        // at least one; offsets are relative to the centre of mass
   float mass = 1.0f;                     // kg
   // kg m^2, body axes. Zero: computed from the shapes with uniform density scaled to `mass`.
   Mat3 inertia = Mat3::Zero();
@@ -124,8 +126,9 @@ class World {
   std::vector<std::string_view> stages() const;              // that this world's content makes it run, in order
   uint64_t stateHash() const;                                // of pose and velocity of all bodies, bit-exact
 
+  struct Impl;  // the stages of high_level/pipeline work on it
+
  private:
-  struct Impl;
   std::unique_ptr<Impl> impl_;
 };
 

@@ -1,0 +1,61 @@
+// Contact constraints of eight manifolds side by side, as the solver's kernels read them.
+//
+// Lanes of one batch share no dynamic body (graph colouring), so that they can be solved at once. Idle lanes
+// have zero masses and point at no body; they stay neutral.
+#pragma once
+
+#include <cstdint>
+
+#include "pfx/base_level/constraint/softness.h"
+
+namespace pfx {
+
+inline constexpr int kRowLanes = 8;
+
+using Lane = float[kRowLanes];
+
+// The set-up copies from a manifold; the kernel `prepare` turns that into the row. Where the two differ, the
+// first meaning stands in brackets.
+struct alignas(32) ContactPointRows {
+  Lane arm_a[3];  // m, contact point - centre of mass of A, world axes, at the start of the step [body axes]
+  Lane arm_b[3];
+  Lane separation;       // m, at the start of the step
+  Lane normal_mass;      // kg [1 where the point exists, else 0]
+  Lane tangent_mass[3];  // kg; inverse of the 2 x 2 tangent block: 11, 12, 22 [remembered friction, world
+                         // axes, N s]
+  Lane normal_impulse;   // N s
+  Lane tangent_impulse[2];
+  Lane max_normal_impulse;  // N s, over the sub-steps; restitution acts where it is positive
+  Lane approach_speed;      // m/s, normal velocity before the step; negative: approaching
+};
+
+struct alignas(32) ContactRows {
+  int32_t body_a[kRowLanes];  // index of the solver body; the last one is a dummy at rest
+  int32_t body_b[kRowLanes];
+  uint32_t writable_a;  // bit i: lane i may change its body A
+  uint32_t writable_b;
+  uint32_t num_points;       // the most of any lane, 1 .. 4; missing points have zero mass
+  uint32_t has_restitution;  // 0 or 1: some lane bounces
+  alignas(32) Lane normal[3];  // unit, from A to B
+  Lane tangent[3];           // unit; the second tangent is normal x tangent
+  Lane center_a[3];          // m, mean of the arms: friction acts at center + spread * (arm - center)
+  Lane center_b[3];
+  Lane friction;
+  Lane restitution;
+  Lane bias_rate;
+  Lane mass_scale;
+  Lane impulse_scale;
+  ContactPointRows points[4];
+};
+
+// Numbers that are the same for every row of a step.
+struct ContactSolveParams {
+  float inv_h;            // 1/s, of the sub-step
+  Softness moving;        // of a contact between two bodies that move
+  Softness fixed;         // of a contact with something that does not give way
+  float max_push_speed;   // m/s at which overlap is resolved at most
+  float friction_spread;  // share of the distance between a point and the centre at which its friction acts
+  float restitution_threshold;  // m/s: slower impacts do not bounce
+};
+
+}  // namespace pfx

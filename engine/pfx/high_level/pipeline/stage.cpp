@@ -1,0 +1,63 @@
+#include "pfx/high_level/pipeline/stage.h"
+
+#include <array>
+#include <chrono>
+
+#include "pfx/high_level/pipeline/stages.h"
+#include "pfx/high_level/world/world_impl.h"
+
+namespace pfx {
+namespace {
+
+bool hasBodies(const World::Impl& w) { return w.store.count() > 0; }
+bool hasSeveralBodies(const World::Impl& w) { return w.store.count() > 1; }
+bool hasPairs(const World::Impl& w) { return !w.pairs.empty(); }
+bool hasConstraints(const World::Impl& w) { return !w.constraints.empty(); }
+bool hasFreeBodies(const World::Impl& w) { return !w.free_bodies.empty(); }
+bool hasKeyframes(const World::Impl& w) { return !w.keyframes.empty(); }
+bool sleeps(const World::Impl& w) { return w.def.sleeping && hasBodies(w); }
+
+constexpr std::array kSimple = {
+    Stage{"broad phase", hasSeveralBodies, stage::findPairsAnew},
+    Stage{"collision", hasPairs, stage::detectCollisions},
+    Stage{"constraints", hasPairs, stage::gatherConstraints},
+    Stage{"free flight", hasFreeBodies, stage::flyFree},
+    Stage{"solver set-up", hasConstraints, stage::setUpSolver},
+    Stage{"solve", hasConstraints, stage::solve},
+    Stage{"write back", hasConstraints, stage::writeBack},
+    Stage{"key frames", hasKeyframes, stage::followKeyframes},
+};
+
+constexpr std::array kStable = {
+    Stage{"broad phase", hasSeveralBodies, stage::updatePairs},
+    Stage{"collision", hasPairs, stage::detectCollisions},
+    Stage{"constraints", hasPairs, stage::gatherConstraints},
+    Stage{"free flight", hasFreeBodies, stage::flyFree},
+    Stage{"solver set-up", hasConstraints, stage::setUpSolver},
+    Stage{"solve", hasConstraints, stage::solve},
+    Stage{"write back", hasConstraints, stage::writeBack},
+    Stage{"key frames", hasKeyframes, stage::followKeyframes},
+    Stage{"store impulses", hasConstraints, stage::storeImpulses},
+    Stage{"sleep", sleeps, stage::putToSleep},
+};
+
+}  // namespace
+
+std::span<const Stage> stages(Pipeline pipeline) {
+  if (pipeline == Pipeline::Simple) return kSimple;
+  return kStable;
+}
+
+void runStages(World::Impl& world) {
+  using Clock = std::chrono::steady_clock;
+  world.times.clear();
+  stage::begin(world);
+  for (const Stage& s : stages(world.def.pipeline)) {
+    if (!s.needed(world)) continue;
+    const auto start = Clock::now();
+    s.run(world);
+    world.times.push_back({s.name, std::chrono::duration<double, std::milli>(Clock::now() - start).count()});
+  }
+}
+
+}  // namespace pfx

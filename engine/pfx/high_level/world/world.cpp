@@ -1,0 +1,152 @@
+#include "pfx/high_level/world/world.h"
+
+#include <cmath>
+#include <stdexcept>
+
+#include "pfx/base_level/math/trig.h"
+#include "pfx/high_level/world/world_impl.h"
+#include "pfx/util/state_hash/state_hash.h"
+
+namespace pfx {
+
+bool World::Impl::solves(const Pair& pair) const {
+  const RigidState &a = store.states[pair.body_a], &b = store.states[pair.body_b];
+  if (!solvesConstraint(a.motion_type, b.motion_type)) return false;
+  return (isDynamic(a.motion_type) && !a.asleep) || (isDynamic(b.motion_type) && !b.asleep);
+}
+
+void World::Impl::refreshActive() {
+  if (!active_changed) return;
+  active.clear();
+  for (uint32_t i = 0; i < store.states.size(); ++i)
+    if (isDynamic(store.states[i].motion_type) && !store.states[i].asleep) active.push_back(i);
+  active_changed = false;
+}
+
+// Islands are made when somebody asks: for sleep, or to look at.
+void World::Impl::linkIslands() {
+  refreshActive();
+  island_links.clear();
+  island_link_pairs.clear();
+  for (uint32_t i = 0; i < pairs.size(); ++i) {
+    if (!solves(pairs[i]) || contacts.manifolds(pairs[i].contact_id).empty()) continue;
+    island_links.push_back({pairs[i].body_a, pairs[i].body_b});
+    island_link_pairs.push_back(i);
+  }
+  islands.build(store.states, island_links);
+}
+
+World::World(const WorldDef& def) {
+  if (def.substeps < 1) throw std::invalid_argument("world: substeps must be >= 1");
+  if (!def.gravity.allFinite()) throw std::invalid_argument("world: gravity is not finite");
+  impl_ = std::make_unique<Impl>(def);
+}
+World::~World() = default;
+World::World(World&&) noexcept = default;
+World& World::operator=(World&&) noexcept = default;
+
+const WorldDef& World::def() const { return impl_->def; }
+
+BodyId World::addBody(const BodyDef& def) {
+  impl_->active_changed = true;
+  return impl_->store.add(def);
+}
+
+void World::removeBody(BodyId id) {
+  if (!isValid(id)) return;
+  std::erase_if(impl_->pairs, [&](const Pair& p) {
+    if (p.body_a != id.index && p.body_b != id.index) return false;
+    impl_->contacts.remove(p.contact_id);
+    return true;
+  });
+  impl_->store.remove(id.index);
+  impl_->active_changed = true;
+}
+
+bool World::isValid(BodyId id) const { return id && impl_->store.isValid(id); }
+
+BodyId World::bodyId(uint32_t index) const { return {index, impl_->store.generations.at(index)}; }
+
+void World::step(float dt) {
+  if (!(dt >= 0.0f) || !std::isfinite(dt))
+    throw std::invalid_argument("world: dt = " + std::to_string(dt) + " s, must be >= 0");
+  if (dt == 0.0f) return;
+  impl_->dt = dt;
+  runStages(*impl_);
+  ++impl_->step_count;
+}
+
+uint64_t World::stepCount() const { return impl_->step_count; }
+std::span<const RigidState> World::states() const { return impl_->store.states; }
+std::span<const RigidBody> World::bodies() const { return impl_->store.bodies; }
+std::span<const Collidable> World::collidables() const { return impl_->store.collidables; }
+std::string_view World::name(uint32_t index) const { return impl_->store.names.at(index); }
+
+RigidState& World::state(BodyId id) {
+  if (!isValid(id)) throw std::invalid_argument("world: the body does not exist");
+  impl_->store.states[id.index].asleep = false;
+  impl_->active_changed = true;
+  return impl_->store.states[id.index];
+}
+
+RigidBody& World::body(BodyId id) {
+  state(id);
+  return impl_->store.bodies[id.index];
+}
+
+void World::moveKeyframe(BodyId id, const Transform& pose, float dt) {
+  RigidState& s = state(id);
+  if (s.motion_type != MotionType::Keyframe) throw std::invalid_argument("world: only Keyframe bodies follow a pose");
+  impl_->keyframes.push_back({id.index, pose});
+  s.linear_velocity = (pose.position - s.position) / dt;
+  Quat turn = pose.orientation * s.orientation.conjugate();
+  if (turn.w() < 0.0f) turn.coeffs() = -turn.coeffs();
+  const float sine = turn.vec().norm();
+  s.angular_velocity = sine == 0.0f ? Vec3(Vec3::Zero()) : Vec3(2.0f * atan2(sine, turn.w()) / (sine * dt) * turn.vec());
+}
+
+std::span<const Pair> World::contactPairs() const { return impl_->pairs; }
+
+std::span<const ContactManifold> World::manifolds(const Pair& pair) const {
+  return std::as_const(impl_->contacts).manifolds(pair.contact_id);
+}
+
+uint32_t World::numIslands() const {
+  impl_->linkIslands();
+  return impl_->islands.size();
+}
+
+IslandView World::island(uint32_t index) const {
+  const auto bodies = impl_->islands.bodies(index);
+  const RigidState& first = impl_->store.states[bodies.front()];
+  return {.bodies = bodies,
+          .contacts = impl_->islands.links(index),
+          .asleep = first.asleep,
+          .sleep_timer = static_cast<float>(first.sleep_count) * impl_->dt};
+}
+
+WorldCounts World::counts() const {
+  WorldCounts c;
+  c.bodies = impl_->store.count();
+  for (const RigidState& s : impl_->store.states) c.awake += isDynamic(s.motion_type) && !s.asleep;
+  c.pairs = static_cast<uint32_t>(impl_->pairs.size());
+  for (const Pair& p : impl_->pairs) {
+    const auto found = manifolds(p);
+    c.touching_pairs += !found.empty();
+    for (const ContactManifold& m : found) c.contact_points += m.num_points;
+  }
+  c.islands = numIslands();
+  return c;
+}
+
+std::span<const StageTime> World::stageTimes() const { return impl_->times; }
+
+std::vector<std::string_view> World::stages() const {
+  std::vector<std::string_view> names;
+  for (const StageTime& t : impl_->times) names.push_back(t.name);
+  return names;
+}
+
+uint64_t World::stateHash() const { return hashStates(impl_->store.states); }
+
+}  // namespace pfx

@@ -1,0 +1,58 @@
+// Collision detection of all pairs: manifolds with the impulses that they inherit.
+//
+// A pair that has hardly moved since its manifold was found keeps it and only has its distances measured again. This
+// loses nothing: a point left out was farther away than the margin, and the motion allowed is half of that.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "pfx/base_level/collision/pair.h"
+#include "pfx/base_level/rigid_body/rigid_state.h"
+#include "pfx/base_level/shape/collidable.h"
+#include "pfx/low_level/collision/contact_store.h"
+#include "pfx/low_level/task/task_manager.h"
+
+namespace pfx {
+
+// How far ahead of touching a body makes contacts (m).
+struct ContactReach {
+  float resting = 0.0f;  // always; a pair uses the smaller of the two
+  float travel = 0.0f;   // what its surface may move in the step
+};
+
+struct DetectInput {
+  std::span<const RigidState> states;       // by body
+  std::span<const Collidable> collidables;  // by body
+  std::span<const ContactReach> reach;      // by body
+  std::span<const Pair> pairs;              // contact_id names the contact
+};
+
+class CollisionDetector {
+ public:
+  // Updates the contacts of all pairs. The result does not depend on the number of workers.
+  void detect(const DetectInput& input, ContactStore& contacts, TaskManager& tasks);
+
+  uint32_t numRecycled() const { return num_recycled_; }  // pairs of the last call that kept their manifolds
+
+ private:
+  // Manifolds that did not fit the block of their contact.
+  struct Pending {
+    uint32_t pair, first, count;
+  };
+  struct Scratch {
+    std::vector<ContactManifold> found;    // of the pair at hand
+    std::vector<ContactManifold> storage;  // of pending pairs
+    std::vector<Pending> pending;
+    uint32_t recycled = 0;
+  };
+
+  void detectPair(const DetectInput& input, uint32_t pair, ContactStore& contacts, Scratch& scratch) const;
+  void assignPending(const DetectInput& input, ContactStore& contacts);
+
+  std::vector<Scratch> scratch_;  // by worker
+  std::vector<std::pair<uint32_t, uint32_t>> order_;  // (pair, worker) of what is pending
+  uint32_t num_recycled_ = 0;
+};
+
+}  // namespace pfx

@@ -1,0 +1,80 @@
+#include "pfx/low_level/integrate/substep.h"
+
+namespace pfx {
+namespace {
+
+Vec3 load(const float (&a)[3]) { return Vec3(a[0], a[1], a[2]); }
+
+void store(float (&out)[3], const Vec3& v) {
+  for (int i = 0; i < 3; ++i) out[i] = v[i];
+}
+
+Vec3 symmetricProduct(const float (&m)[6], const Vec3& v) {
+  return Vec3(m[0] * v[0] + m[1] * v[1] + m[2] * v[2], m[1] * v[0] + m[3] * v[1] + m[4] * v[2],
+              m[2] * v[0] + m[4] * v[1] + m[5] * v[2]);
+}
+
+Quat deltaRotation(const SolverBody& b) { return Quat(b.dq[3], b.dq[0], b.dq[1], b.dq[2]); }
+
+void setDeltaRotation(SolverBody& b, const Quat& q) {
+  b.dq[0] = q.x(), b.dq[1] = q.y(), b.dq[2] = q.z(), b.dq[3] = q.w();
+}
+
+// A turn below this (rad a sub-step, squared) leaves the world inertia as it is.
+constexpr float kNegligibleTurn2 = 1e-8f;
+
+Vec3 angularMomentum(const SolverBody& b, const BodyMotion& m, const Vec3& w) {
+  if (m.inertia->spherical) return m.inertia->body(0, 0) * w;
+  const Mat3 r = (deltaRotation(b) * m.start_orientation).toRotationMatrix();
+  return r * (m.inertia->body * (r.transpose() * w));
+}
+
+}  // namespace
+
+void setInverseInertia(SolverBody& body, const Mat3& inverse) {
+  const float packed[6] = {inverse(0, 0), inverse(0, 1), inverse(0, 2),
+                           inverse(1, 1), inverse(1, 2), inverse(2, 2)};
+  for (int i = 0; i < 6; ++i) body.inv_inertia[i] = packed[i];
+}
+
+void integrateVelocities(std::span<SolverBody> bodies, std::span<BodyMotion> motions, float h) {
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    SolverBody& b = bodies[i];
+    BodyMotion& m = motions[i];
+    if (!m.inertia) continue;
+    m.free_velocity = m.linear_decay * (load(b.v) + h * m.acceleration);
+    const Vec3 w = m.angular_decay * (load(b.w) + h * symmetricProduct(b.inv_inertia, m.torque));
+    m.free_momentum = angularMomentum(b, m, w);
+    store(b.v, m.free_velocity + m.impulse_velocity);
+    store(b.w, w + symmetricProduct(b.inv_inertia, m.impulse_momentum));
+  }
+}
+
+void integratePositions(std::span<SolverBody> bodies, std::span<const BodyMotion> motions, float h) {
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    SolverBody& b = bodies[i];
+    const BodyMotion& m = motions[i];
+    store(b.dp, load(b.dp) + h * load(b.v));
+    const Vec3 w = load(b.w);
+    if (!m.inertia || m.inertia->spherical || w.squaredNorm() * h * h < kNegligibleTurn2) {
+      setDeltaRotation(b, (expMap(h * w) * deltaRotation(b)).normalized());
+      continue;
+    }
+    const Rotation turned = advanceRotation({deltaRotation(b) * m.start_orientation, w}, *m.inertia, h);
+    setDeltaRotation(b, turned.orientation * m.start_orientation.conjugate());
+    store(b.w, turned.angular_velocity);
+    setInverseInertia(b, worldInverseInertia(turned.orientation, *m.inertia));
+  }
+}
+
+void rememberImpulses(std::span<const SolverBody> bodies, std::span<BodyMotion> motions) {
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    const SolverBody& b = bodies[i];
+    BodyMotion& m = motions[i];
+    if (!m.inertia) continue;
+    m.impulse_velocity = load(b.v) - m.free_velocity;
+    m.impulse_momentum = angularMomentum(b, m, load(b.w)) - m.free_momentum;
+  }
+}
+
+}  // namespace pfx

@@ -1,0 +1,313 @@
+// Body of the contact kernels over eight lanes; compiled by contact_kernels_sse2.cpp and
+// contact_kernels_avx2.cpp.
+#pragma once
+
+#include "pfx/base_level/math/lanes.h"
+#include "pfx/low_level/solver/contact_kernels.h"
+
+namespace pfx::PFX_LANES {
+
+struct Velocity {
+  V8 v, w;
+};
+struct Mass {
+  F8 inv_mass;
+  S8 inv_inertia;
+};
+struct Motion {  // since the start of the step
+  V8 dp, u;
+  F8 q;
+};
+
+// One side of a batch: which bodies, and what of them the kernels use.
+struct Side {
+  SolverBody* bodies[8];
+  Velocity velocity;
+  Mass mass;
+};
+
+inline F8 laneMask(uint32_t bits) {
+  alignas(32) uint32_t m[8];
+  for (int i = 0; i < 8; ++i) m[i] = bits >> i & 1 ? 0xffffffffu : 0u;
+  return F8::load(reinterpret_cast<const float*>(m));
+}
+
+inline Side loadSide(SolverBody* bodies, const int32_t (&index)[8], uint32_t writable) {
+  Side s;
+  const float* rows[8];
+  for (int i = 0; i < 8; ++i) {
+    s.bodies[i] = bodies + index[i];
+    rows[i] = s.bodies[i]->v;
+  }
+  F8 t[8];
+  loadTransposed(rows, t);
+  s.velocity = {{t[0], t[1], t[2]}, {t[4], t[5], t[6]}};
+  s.mass.inv_mass = t[3];
+  for (int i = 0; i < 8; ++i) rows[i] = s.bodies[i]->inv_inertia;
+  loadTransposed(rows, t);
+  s.mass.inv_inertia = {t[0], t[1], t[2], t[3], t[4], t[5]};
+  if (writable != 0xffu) {
+    const F8 m = laneMask(writable);
+    s.mass.inv_mass = s.mass.inv_mass & m;
+    S8& i = s.mass.inv_inertia;
+    i = {i.xx & m, i.xy & m, i.xz & m, i.yy & m, i.yz & m, i.zz & m};
+  }
+  return s;
+}
+
+inline Motion loadMotion(const Side& s) {
+  const float* rows[8];
+  for (int i = 0; i < 8; ++i) rows[i] = s.bodies[i]->dp;
+  F8 t[8];
+  loadTransposed(rows, t);
+  return {{t[0], t[1], t[2]}, {t[4], t[5], t[6]}, t[7]};
+}
+
+inline void storeSide(const Side& s, uint32_t writable) {
+  float* rows[8];
+  for (int i = 0; i < 8; ++i) rows[i] = writable >> i & 1 ? s.bodies[i]->v : nullptr;
+  const Velocity& u = s.velocity;
+  const F8 t[8] = {u.v.x, u.v.y, u.v.z, s.mass.inv_mass, u.w.x, u.w.y, u.w.z, F8::zero()};
+  storeTransposed(t, rows);
+}
+
+// Writes back only the velocity of writable lanes; a read-only lane of a one-way pair keeps its true mass,
+// because its row is not stored at all.
+struct Batch {
+  ContactRows& rows;
+  Side a, b;
+  Batch(ContactRows& r, SolverBody* bodies)
+      : rows(r), a(loadSide(bodies, r.body_a, r.writable_a)), b(loadSide(bodies, r.body_b, r.writable_b)) {}
+  void store() const {
+    storeSide(a, rows.writable_a);
+    storeSide(b, rows.writable_b);
+  }
+};
+
+// Adds the impulse p (on B at arm_b, minus p on A at arm_a).
+inline void apply(Batch& c, const V8& p, const V8& arm_a, const V8& arm_b) {
+  c.a.velocity.v = c.a.velocity.v - c.a.mass.inv_mass * p;
+  c.a.velocity.w = c.a.velocity.w - c.a.mass.inv_inertia * cross(arm_a, p);
+  c.b.velocity.v = c.b.velocity.v + c.b.mass.inv_mass * p;
+  c.b.velocity.w = c.b.velocity.w + c.b.mass.inv_inertia * cross(arm_b, p);
+}
+
+inline V8 relativeVelocity(const Batch& c, const V8& arm_a, const V8& arm_b) {
+  return (c.b.velocity.v + cross(c.b.velocity.w, arm_b)) - (c.a.velocity.v + cross(c.a.velocity.w, arm_a));
+}
+
+// Where the friction of a point acts: pulled in towards the centre, so that a patch resists spin like a
+// spread pressure and not like its corners.
+inline V8 frictionArm(const V8& center, const V8& arm, F8 spread) { return center + spread * (arm - center); }
+
+// How far the body's rotation has moved the end of `arm` since the start of the step.
+inline V8 armShift(const Motion& m, const V8& arm) {
+  const V8 t = F8::set(2.0f) * cross(m.u, arm);
+  return m.q * t + cross(m.u, t);
+}
+
+// Softness of a row, from its two kinds.
+inline void storeSoftness(ContactRows& r, F8 both_move, const ContactSolveParams& params) {
+  const auto pick = [&](float Softness::*field, Lane& out) {
+    select(both_move, F8::set(params.moving.*field), F8::set(params.fixed.*field)).store(out);
+  };
+  pick(&Softness::bias_rate, r.bias_rate);
+  pick(&Softness::mass_scale, r.mass_scale);
+  pick(&Softness::impulse_scale, r.impulse_scale);
+}
+
+inline F8 effectiveMass(const Batch& c, const V8& ra, const V8& rb, const V8& sa, const V8& sb, F8 axes) {
+  const F8 inv_mass = c.a.mass.inv_mass + c.b.mass.inv_mass;
+  return axes * inv_mass + dot(ra, c.a.mass.inv_inertia * sa) + dot(rb, c.b.mass.inv_inertia * sb);
+}
+
+// Turns what the set-up copied from the manifolds (see ContactPointRows) into rows.
+inline void prepare(ContactRows* rows, uint32_t count, SolverBody* bodies, const ContactSolveParams& params) {
+  const F8 zero = F8::zero(), one = F8::set(1.0f), tiny = F8::set(1e-30f),
+           spread = F8::set(params.friction_spread);
+  for (uint32_t k = 0; k < count; ++k) {
+    ContactRows& r = rows[k];
+    Batch c(r, bodies);
+    const Motion ma = loadMotion(c.a), mb = loadMotion(c.b);  // here: the pose at the start of the step
+    const V8 n = V8::load(r.normal), t1 = V8::load(r.tangent), t2 = cross(n, t1);
+    // rests on something that does not give way
+    const F8 both_move = (c.a.mass.inv_mass * c.b.mass.inv_mass) > zero;
+    storeSoftness(r, both_move, params);
+
+    V8 center_a{zero, zero, zero}, center_b = center_a;
+    F8 present = zero;
+    for (uint32_t i = 0; i < r.num_points; ++i) {
+      ContactPointRows& p = r.points[i];
+      const F8 exists = F8::load(p.normal_mass);
+      const V8 arm_a = rotate(ma.u, ma.q, V8::load(p.arm_a)), arm_b = rotate(mb.u, mb.q, V8::load(p.arm_b));
+      arm_a.store(p.arm_a);
+      arm_b.store(p.arm_b);
+      center_a = center_a + exists * arm_a;
+      center_b = center_b + exists * arm_b;
+      present += exists;
+    }
+    const F8 share = one / max(present, one);
+    center_a = share * center_a;
+    center_b = share * center_b;
+    center_a.store(r.center_a);
+    center_b.store(r.center_b);
+
+    for (uint32_t i = 0; i < r.num_points; ++i) {
+      ContactPointRows& p = r.points[i];
+      const F8 exists = F8::load(p.normal_mass) > zero;
+      const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
+      const V8 na = cross(arm_a, n), nb = cross(arm_b, n);
+      const F8 kn = effectiveMass(c, na, nb, na, nb, one);
+      ((one / max(kn, tiny)) & (kn > zero) & exists).store(p.normal_mass);
+      dot(n, relativeVelocity(c, arm_a, arm_b)).store(p.approach_speed);
+      zero.store(p.max_normal_impulse);
+
+      const V8 fa = frictionArm(center_a, arm_a, spread), fb = frictionArm(center_b, arm_b, spread);
+      const V8 a1 = cross(fa, t1), a2 = cross(fa, t2), b1 = cross(fb, t1), b2 = cross(fb, t2);
+      const F8 k11 = effectiveMass(c, a1, b1, a1, b1, one), k22 = effectiveMass(c, a2, b2, a2, b2, one);
+      const F8 k12 = effectiveMass(c, a1, b1, a2, b2, zero);
+      const F8 determinant = k11 * k22 - k12 * k12;
+      const F8 inverse = (one / max(determinant, tiny)) & (determinant > zero) & exists;
+      const V8 impulse = V8::load(p.tangent_mass);  // here: the remembered friction, world axes
+      (inverse * k22).store(p.tangent_mass[0]);
+      (zero - inverse * k12).store(p.tangent_mass[1]);
+      (inverse * k11).store(p.tangent_mass[2]);
+      dot(impulse, t1).store(p.tangent_impulse[0]);
+      dot(impulse, t2).store(p.tangent_impulse[1]);
+    }
+  }
+}
+
+inline void warmStart(ContactRows* rows, uint32_t count, SolverBody* bodies,
+                      const ContactSolveParams& params) {
+  const F8 spread = F8::set(params.friction_spread);
+  for (uint32_t k = 0; k < count; ++k) {
+    ContactRows& r = rows[k];
+    Batch c(r, bodies);
+    const V8 n = V8::load(r.normal), t1 = V8::load(r.tangent), t2 = cross(n, t1);
+    const V8 center_a = V8::load(r.center_a), center_b = V8::load(r.center_b);
+    for (uint32_t i = 0; i < r.num_points; ++i) {
+      const ContactPointRows& p = r.points[i];
+      const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
+      apply(c, F8::load(p.normal_impulse) * n, arm_a, arm_b);
+      const V8 friction = F8::load(p.tangent_impulse[0]) * t1 + F8::load(p.tangent_impulse[1]) * t2;
+      apply(c, friction, frictionArm(center_a, arm_a, spread), frictionArm(center_b, arm_b, spread));
+    }
+    c.store();
+  }
+}
+
+// Sweeps over the points of a manifold each time it is visited. The four points of a face work against each other; a
+// second sweep costs little while everything is at hand, and doubles the stiffness at which stacks stay calm.
+inline constexpr int kSweeps = 2;
+
+inline void push(ContactRows* rows, uint32_t count, SolverBody* bodies, const ContactSolveParams& params) {
+  const F8 inv_h = F8::set(params.inv_h), slowest = F8::set(-params.max_push_speed);
+  const F8 zero = F8::zero(), one = F8::set(1.0f);
+  for (uint32_t k = 0; k < count; ++k) {
+    ContactRows& r = rows[k];
+    Batch c(r, bodies);
+    const Motion ma = loadMotion(c.a), mb = loadMotion(c.b);
+    const V8 n = V8::load(r.normal), shift = mb.dp - ma.dp;
+    const F8 bias_rate = F8::load(r.bias_rate);
+    const F8 mass_scale = F8::load(r.mass_scale), impulse_scale = F8::load(r.impulse_scale);
+    for (uint32_t sweep = 0; sweep < kSweeps * r.num_points; ++sweep) {
+      ContactPointRows& p = r.points[sweep % r.num_points];
+      const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
+      const F8 s = F8::load(p.separation) + dot(n, shift + (armShift(mb, arm_b) - armShift(ma, arm_a)));
+      const F8 apart = s > zero;
+      const F8 bias = select(apart, s * inv_h, max(bias_rate * s, slowest));
+      const F8 vn = dot(n, relativeVelocity(c, arm_a, arm_b));
+      const F8 old = F8::load(p.normal_impulse);
+      const F8 change = -(F8::load(p.normal_mass) * select(apart, one, mass_scale) * (vn + bias)) -
+                        select(apart, zero, impulse_scale) * old;
+      const F8 impulse = max(old + change, zero);
+      impulse.store(p.normal_impulse);
+      apply(c, (impulse - old) * n, arm_a, arm_b);
+    }
+    c.store();
+  }
+}
+
+inline void relaxNormals(Batch& c, const V8& n, F8 inv_h) {
+  const Motion ma = loadMotion(c.a), mb = loadMotion(c.b);
+  const V8 shift = mb.dp - ma.dp;
+  const F8 zero = F8::zero();
+  for (uint32_t i = 0; i < c.rows.num_points; ++i) {
+    ContactPointRows& p = c.rows.points[i];
+    const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
+    const F8 s = F8::load(p.separation) + dot(n, shift + (armShift(mb, arm_b) - armShift(ma, arm_a)));
+    const F8 vn = dot(n, relativeVelocity(c, arm_a, arm_b));
+    const F8 old = F8::load(p.normal_impulse);
+    const F8 impulse = max(old - F8::load(p.normal_mass) * (vn + max(s, zero) * inv_h), zero);
+    impulse.store(p.normal_impulse);
+    max(impulse, F8::load(p.max_normal_impulse)).store(p.max_normal_impulse);
+    apply(c, (impulse - old) * n, arm_a, arm_b);
+  }
+}
+
+inline void solveFriction(Batch& c, const V8& n, F8 spread) {
+  ContactRows& r = c.rows;
+  const V8 t1 = V8::load(r.tangent), t2 = cross(n, t1);
+  const V8 center_a = V8::load(r.center_a), center_b = V8::load(r.center_b);
+  const F8 friction = F8::load(r.friction);
+  for (uint32_t i = 0; i < r.num_points; ++i) {
+    ContactPointRows& p = r.points[i];
+    const V8 arm_a = frictionArm(center_a, V8::load(p.arm_a), spread);
+    const V8 arm_b = frictionArm(center_b, V8::load(p.arm_b), spread);
+    const V8 v = relativeVelocity(c, arm_a, arm_b);
+    const F8 v1 = dot(t1, v), v2 = dot(t2, v);
+    const F8 m11 = F8::load(p.tangent_mass[0]), m12 = F8::load(p.tangent_mass[1]),
+             m22 = F8::load(p.tangent_mass[2]);
+    const F8 old1 = F8::load(p.tangent_impulse[0]), old2 = F8::load(p.tangent_impulse[1]);
+    F8 x1 = old1 - (m11 * v1 + m12 * v2), x2 = old2 - (m12 * v1 + m22 * v2);
+    const F8 limit = friction * F8::load(p.normal_impulse);
+    const F8 length2 = x1 * x1 + x2 * x2;
+    const F8 scale =
+        select(length2 > limit * limit, limit / max(sqrt(length2), F8::set(1e-30f)), F8::set(1.0f));
+    x1 = scale * x1, x2 = scale * x2;
+    x1.store(p.tangent_impulse[0]);
+    x2.store(p.tangent_impulse[1]);
+    apply(c, (x1 - old1) * t1 + (x2 - old2) * t2, arm_a, arm_b);
+  }
+}
+
+inline void relax(ContactRows* rows, uint32_t count, SolverBody* bodies, const ContactSolveParams& params) {
+  const F8 inv_h = F8::set(params.inv_h), spread = F8::set(params.friction_spread);
+  for (uint32_t k = 0; k < count; ++k) {
+    Batch c(rows[k], bodies);
+    const V8 n = V8::load(rows[k].normal);
+    for (int sweep = 0; sweep < kSweeps; ++sweep) {
+      relaxNormals(c, n, inv_h);
+      solveFriction(c, n, spread);
+    }
+    c.store();
+  }
+}
+
+inline void restitution(ContactRows* rows, uint32_t count, SolverBody* bodies,
+                        const ContactSolveParams& params) {
+  const F8 zero = F8::zero(), threshold = F8::set(-params.restitution_threshold);
+  for (uint32_t k = 0; k < count; ++k) {
+    ContactRows& r = rows[k];
+    if (!r.has_restitution) continue;
+    Batch c(r, bodies);
+    const V8 n = V8::load(r.normal);
+    const F8 e = F8::load(r.restitution);
+    for (uint32_t i = 0; i < r.num_points; ++i) {
+      ContactPointRows& p = r.points[i];
+      const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
+      const F8 approach = F8::load(p.approach_speed);
+      const F8 bounces = (approach < threshold) & (F8::load(p.max_normal_impulse) > zero);
+      const F8 vn = dot(n, relativeVelocity(c, arm_a, arm_b));
+      const F8 old = F8::load(p.normal_impulse);
+      const F8 wanted = max(old - F8::load(p.normal_mass) * (vn + e * approach), zero);
+      const F8 impulse = select(bounces, wanted, old);
+      impulse.store(p.normal_impulse);
+      apply(c, (impulse - old) * n, arm_a, arm_b);
+    }
+    c.store();
+  }
+}
+
+}  // namespace pfx::PFX_LANES

@@ -1,0 +1,27 @@
+// Between manifolds and the solver's rows: copying in before the solve, copying impulses out after it.
+#pragma once
+
+#include <span>
+
+#include "pfx/base_level/collision/contact_manifold.h"
+#include "pfx/base_level/constraint/contact_rows.h"
+
+namespace pfx {
+
+// One manifold to be solved.
+struct ContactConstraint {
+  ContactManifold* manifold;
+  uint32_t solver_a, solver_b;  // indices of solver bodies
+  bool writable_a, writable_b;  // whether the solver may change A, B
+  float friction;               // of the pair
+  float restitution;            // of the pair
+};
+
+// Copies up to eight constraints into a batch; the lanes left over point at `idle_body` and stay neutral.
+void fillContactRows(ContactRows& rows, std::span<const ContactConstraint* const> constraints,
+                     uint32_t idle_body);
+
+// Writes the impulses of a batch back to the manifolds it was filled from.
+void storeContactImpulses(const ContactRows& rows, std::span<const ContactConstraint* const> constraints);
+
+}  // namespace pfx

@@ -1,0 +1,69 @@
+// The default contact solver: sub-steps of soft constraints with a relax pass.
+//
+//   for each sub-step: integrate velocities -> [warm start] -> push -> integrate positions -> relax
+//   at the end:        restitution
+//
+// Contacts are found once a step and followed through the sub-steps by the motion of their bodies. Pushing
+// overlap apart adds speed, which relax takes out again, so that positions heal without gaining energy. The
+// stiffness is tied to the sub-step, so that the error falls with the square of its length instead of
+// stopping at a floor. Source: E. Catto, Solver2D, 2024; M. Macklin et al., Small Steps in Physics
+// Simulation, SCA 2019.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "pfx/low_level/integrate/substep.h"
+#include "pfx/low_level/island/colouring.h"
+#include "pfx/low_level/solver/contact_kernels.h"
+#include "pfx/low_level/solver/contact_setup.h"
+#include "pfx/low_level/task/task_manager.h"
+
+namespace pfx {
+
+struct SoftStepParams {
+  float h = 1.0f / 240.0f;  // s, of a sub-step
+  int substeps = 4;
+  bool warm_start = true;              // start from the impulses in the manifolds
+  float contact_frequency = 0.25f;     // of contacts, in units of 1/h; higher: stiffer, less calm
+  float contact_damping = 1.0f;        // damping ratio of contacts
+  float max_push_speed = 3.0f;         // m/s
+  float friction_spread = 0.6f;        // 0 .. 1, see ContactSolveParams
+  float restitution_threshold = 0.5f;  // m/s
+  SimdLevel simd = SimdLevel::Auto;
+};
+
+class SoftStep {
+ public:
+  // Colours the constraints and makes rows of them. `bodies` hold the velocities at the start of the step; dq
+  // holds the orientation and dp nothing. The last body is the idle one. is_dynamic: by solver body.
+  void prepare(std::span<const ContactConstraint> constraints, std::span<const uint8_t> is_dynamic,
+               std::span<SolverBody> bodies, const SoftStepParams& params, TaskManager& tasks);
+
+  // Runs the sub-steps. dp and dq must be zero and identity; afterwards they are the motion of the step.
+  void solve(std::span<SolverBody> bodies, std::span<BodyMotion> motions, const SoftStepParams& params,
+             TaskManager& tasks);
+
+  // Writes the impulses back to the manifolds.
+  void store(TaskManager& tasks) const;
+
+  uint32_t numColours() const { return colouring_.size(); }
+
+ private:
+  struct Group {
+    uint32_t begin, end;  // batches
+    bool serial;          // the lanes of different batches share bodies
+  };
+  void makeBatches(std::span<const ContactConstraint> constraints);
+  void run(ContactKernels::Fn kernel, std::span<SolverBody> bodies, TaskManager& tasks);
+
+  Colouring colouring_;
+  std::vector<Link> links_;
+  std::vector<const ContactConstraint*>
+      lanes_;  // constraints in the order of the batches, null in idle lanes
+  std::vector<ContactRows> rows_;
+  std::vector<Group> groups_;
+  ContactSolveParams solve_params_ = {};
+};
+
+}  // namespace pfx

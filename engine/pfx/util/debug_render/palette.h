@@ -1,0 +1,31 @@
+// The colours of the debug pictures: few, and each with one meaning.
+#pragma once
+
+#include <cstdint>
+
+#include "pfx/base_level/rigid_body/rigid_state.h"
+#include "pfx/util/debug_render/debug_render.h"
+
+namespace pfx {
+
+inline constexpr Color kAxisColors[3] = {0xffd64545u, 0xff4fa352u, 0xff3f72c4u};  // x, y, z
+inline constexpr Color kWorldColor = 0xff8e959eu;
+inline constexpr Color kContactPointColor = 0xfff2b33du;
+inline constexpr Color kContactNormalColor = 0xffe3663au;
+
+struct Look {
+  Color color;
+  Finish finish;
+};
+
+// How a body is painted: warm while it is awake, a little different from body to body; cool and dull asleep;
+// the fixed world a light neutral, scripted bodies metallic blue, triggers a veil.
+Look bodyLook(const RigidState& state, uint32_t body);
+
+// A colour for an index, such that neighbours differ well: hues in steps of the golden ratio.
+Color indexColor(uint32_t index);
+
+// Opaque colour from hue (turns), saturation and value (0 .. 1).
+Color hsvColor(float hue, float saturation, float value);
+
+}  // namespace pfx

@@ -1,0 +1,119 @@
+// Bullet with its default solver settings (sequential impulses, 10 iterations, split impulse), sleeping off.
+#include <btBulletDynamicsCommon.h>
+
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "samples/benchmarks/engine.h"
+
+namespace samples::benchmarks {
+namespace {
+
+btVector3 toBullet(const pfx::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+btTransform toBullet(const pfx::Transform& t) {
+  const pfx::Quat& q = t.orientation;
+  return btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()), toBullet(t.position));
+}
+pfx::Vec3 fromBullet(const btVector3& v) {
+  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+}
+
+// Null for a geometry without a counterpart here.
+struct MakeShape {
+  using Result = std::unique_ptr<btCollisionShape>;
+  Result operator()(const pfx::Sphere& s) const { return std::make_unique<btSphereShape>(s.radius); }
+  Result operator()(const pfx::Box& s) const { return std::make_unique<btBoxShape>(toBullet(s.half_extent)); }
+  Result operator()(const pfx::Capsule& s) const {
+    return std::make_unique<btCapsuleShapeX>(s.radius, 2.0f * s.half_length);
+  }
+  Result operator()(const pfx::Cylinder& s) const {
+    return std::make_unique<btCylinderShapeX>(btVector3(s.half_length, s.radius, s.radius));
+  }
+  Result operator()(const void*) const { return nullptr; }
+};
+
+class BulletEngine final : public Engine {
+ public:
+  explicit BulletEngine(const pfx::Vec3& gravity) { world_.setGravity(toBullet(gravity)); }
+
+  ~BulletEngine() override {
+    for (const auto& body : bodies_) world_.removeRigidBody(body.get());
+  }
+
+  bool add(const pfx::RigidState& state, const pfx::RigidBody& body, std::span<const pfx::Shape> shapes) {
+    btCollisionShape* shape = addShapes(shapes);
+    const bool fixed = state.motion_type == pfx::MotionType::Fixed;
+    if (shape == nullptr || (!fixed && state.motion_type != pfx::MotionType::Active)) return false;
+
+    btRigidBody::btRigidBodyConstructionInfo info(fixed ? 0.0f : body.mass, nullptr, shape,
+                                                  toBullet(body.inertia.diagonal()));
+    info.m_startWorldTransform = toBullet(state.pose());
+    // Bullet multiplies the two values of a pair, pfx takes the geometric mean (friction) or the mean
+    // (restitution).
+    info.m_friction = std::sqrt(body.friction);
+    info.m_restitution = std::sqrt(body.restitution);
+    info.m_linearDamping = body.linear_damping;
+    info.m_angularDamping = body.angular_damping;
+    bodies_.push_back(std::make_unique<btRigidBody>(info));
+    btRigidBody& added = *bodies_.back();
+    added.setLinearVelocity(toBullet(state.linear_velocity));
+    added.setAngularVelocity(toBullet(state.angular_velocity));
+    added.setActivationState(DISABLE_DEACTIVATION);
+    world_.addRigidBody(&added);
+    return true;
+  }
+
+  void step(float dt) override { world_.stepSimulation(dt, 0); }
+
+  BodyMotion motion(uint32_t index) const override {
+    const btRigidBody& body = *bodies_[index];
+    const btQuaternion q = body.getWorldTransform().getRotation();
+    return {.pose = {.position = fromBullet(body.getWorldTransform().getOrigin()),
+                     .orientation = pfx::Quat(static_cast<float>(q.w()), static_cast<float>(q.x()),
+                                              static_cast<float>(q.y()), static_cast<float>(q.z()))},
+            .linear_velocity = fromBullet(body.getLinearVelocity()),
+            .angular_velocity = fromBullet(body.getAngularVelocity())};
+  }
+
+ private:
+  btCollisionShape* keep(std::unique_ptr<btCollisionShape> shape) {
+    shapes_.push_back(std::move(shape));
+    return shapes_.back().get();
+  }
+
+  btCollisionShape* addShapes(std::span<const pfx::Shape> shapes) {
+    if (shapes.size() == 1 && shapes[0].offset.position.isZero() &&
+        shapes[0].offset.orientation.isApprox(pfx::Quat::Identity())) {
+      return keep(std::visit(MakeShape{}, shapes[0].geometry));
+    }
+    auto compound = std::make_unique<btCompoundShape>();
+    for (const pfx::Shape& part : shapes) {
+      btCollisionShape* child = keep(std::visit(MakeShape{}, part.geometry));
+      if (child == nullptr) return nullptr;
+      compound->addChildShape(toBullet(part.offset), child);
+    }
+    return keep(std::move(compound));
+  }
+
+  btDefaultCollisionConfiguration configuration_;
+  btCollisionDispatcher dispatcher_{&configuration_};
+  btDbvtBroadphase broadphase_;
+  btSequentialImpulseConstraintSolver solver_;
+  btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  std::vector<std::unique_ptr<btCollisionShape>> shapes_;
+  std::vector<std::unique_ptr<btRigidBody>> bodies_;
+};
+
+std::unique_ptr<Engine> make(const pfx::World& world) {
+  auto engine = std::make_unique<BulletEngine>(world.def().gravity);
+  for (uint32_t i = 0; i < world.states().size(); ++i)
+    if (!engine->add(world.states()[i], world.bodies()[i], world.collidables()[i].shapes())) return nullptr;
+  return engine;
+}
+
+}  // namespace
+
+EngineKind bulletEngine() { return {sizeof(btScalar) == 4 ? "Bullet, float" : "Bullet, double", make}; }
+
+}  // namespace samples::benchmarks

@@ -1,0 +1,159 @@
+// ODE with its iterative solver and default settings (20 iterations, ERP 0.2), sweep and prune, disabling
+// off.
+#include <ode/ode.h>
+
+#include <array>
+#include <cmath>
+#include <memory>
+#include <vector>
+
+#include "samples/benchmarks/engine.h"
+
+namespace samples::benchmarks {
+namespace {
+
+constexpr int kMaxContacts = 8;  // of a pair of geometries
+
+// ODE's library state lasts as long as one engine does.
+struct OdeLibrary {
+  OdeLibrary() { dInitODE2(0), dRandSetSeed(0); }
+  ~OdeLibrary() { dCloseODE(); }
+  OdeLibrary(const OdeLibrary&) = delete;
+  OdeLibrary& operator=(const OdeLibrary&) = delete;
+};
+
+// ODE's quaternions have w first; capsules and cylinders lie along its Z, ours along X.
+void setOffset(dGeomID geom, const pfx::Transform& offset, bool along_z) {
+  const float half = std::sqrt(0.5f);
+  const pfx::Quat turn = along_z ? pfx::Quat(half, 0.0f, half, 0.0f) : pfx::Quat(1.0f, 0.0f, 0.0f, 0.0f);
+  const pfx::Quat q = offset.orientation * turn;
+  const dQuaternion rotation = {q.w(), q.x(), q.y(), q.z()};
+  dGeomSetOffsetPosition(geom, offset.position.x(), offset.position.y(), offset.position.z());
+  dGeomSetOffsetQuaternion(geom, rotation);
+}
+
+// Null for a geometry without a counterpart here.
+struct MakeGeom {
+  dSpaceID space;
+  dGeomID operator()(const pfx::Sphere& s) const { return dCreateSphere(space, s.radius); }
+  dGeomID operator()(const pfx::Box& s) const {
+    return dCreateBox(space, 2 * s.half_extent.x(), 2 * s.half_extent.y(), 2 * s.half_extent.z());
+  }
+  dGeomID operator()(const pfx::Capsule& s) const {
+    return dCreateCapsule(space, s.radius, 2 * s.half_length);
+  }
+  dGeomID operator()(const pfx::Cylinder& s) const {
+    return dCreateCylinder(space, s.radius, 2 * s.half_length);
+  }
+  dGeomID operator()(const void*) const { return nullptr; }
+};
+
+class OdeEngine final : public Engine {
+ public:
+  explicit OdeEngine(const pfx::World& source)
+      : world_(dWorldCreate()),
+        space_(dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XZY)),
+        contacts_(dJointGroupCreate(0)),
+        surfaces_(source.bodies().begin(), source.bodies().end()) {
+    const pfx::Vec3& g = source.def().gravity;
+    dWorldSetGravity(world_, g.x(), g.y(), g.z());
+    dWorldSetAutoDisableFlag(world_, 0);
+  }
+
+  ~OdeEngine() override {
+    dJointGroupDestroy(contacts_);
+    dSpaceDestroy(space_);
+    dWorldDestroy(world_);
+  }
+
+  bool add(const pfx::RigidState& state, const pfx::RigidBody& body, std::span<const pfx::Shape> shapes) {
+    const bool fixed = state.motion_type == pfx::MotionType::Fixed;
+    if (!fixed && state.motion_type != pfx::MotionType::Active) return false;
+
+    const dBodyID id = dBodyCreate(world_);
+    const pfx::Quat& q = state.orientation;
+    const dQuaternion rotation = {q.w(), q.x(), q.y(), q.z()};
+    dBodySetPosition(id, state.position.x(), state.position.y(), state.position.z());
+    dBodySetQuaternion(id, rotation);
+    dBodySetLinearVel(id, state.linear_velocity.x(), state.linear_velocity.y(), state.linear_velocity.z());
+    dBodySetAngularVel(id, state.angular_velocity.x(), state.angular_velocity.y(),
+                       state.angular_velocity.z());
+    dBodySetDamping(id, body.linear_damping, body.angular_damping);
+    dBodySetData(id, surfaces_.data() + bodies_.size());
+    if (fixed) {
+      dBodySetKinematic(id);
+    } else {
+      const pfx::Mat3& i = body.inertia;
+      dMass mass;
+      dMassSetParameters(&mass, body.mass, 0, 0, 0, i(0, 0), i(1, 1), i(2, 2), i(0, 1), i(0, 2), i(1, 2));
+      dBodySetMass(id, &mass);
+    }
+    bodies_.push_back(id);
+
+    for (const pfx::Shape& shape : shapes) {
+      const dGeomID geom = std::visit(MakeGeom{space_}, shape.geometry);
+      if (geom == nullptr) return false;
+      dGeomSetBody(geom, id);
+      setOffset(geom, shape.offset,
+                shape.type() == pfx::ShapeType::Capsule || shape.type() == pfx::ShapeType::Cylinder);
+    }
+    return true;
+  }
+
+  void step(float dt) override {
+    dSpaceCollide(space_, this,
+                  [](void* self, dGeomID a, dGeomID b) { static_cast<OdeEngine*>(self)->collide(a, b); });
+    dWorldQuickStep(world_, dt);
+    dJointGroupEmpty(contacts_);
+  }
+
+  BodyMotion motion(uint32_t index) const override {
+    const dReal *p = dBodyGetPosition(bodies_[index]), *q = dBodyGetQuaternion(bodies_[index]);
+    const auto vec = [](const dReal* v) {
+      return pfx::Vec3(static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));
+    };
+    return {.pose = {.position = vec(p),
+                     .orientation = pfx::Quat(static_cast<float>(q[0]), static_cast<float>(q[1]),
+                                              static_cast<float>(q[2]), static_cast<float>(q[3]))},
+            .linear_velocity = vec(dBodyGetLinearVel(bodies_[index])),
+            .angular_velocity = vec(dBodyGetAngularVel(bodies_[index]))};
+  }
+
+ private:
+  void collide(dGeomID geom_a, dGeomID geom_b) {
+    const dBodyID a = dGeomGetBody(geom_a), b = dGeomGetBody(geom_b);
+    if (a == b || (dBodyIsKinematic(a) && dBodyIsKinematic(b))) return;
+    std::array<dContact, kMaxContacts> found;
+    const int count = dCollide(geom_a, geom_b, kMaxContacts, &found[0].geom, sizeof(dContact));
+    const auto& surface_a = *static_cast<const pfx::RigidBody*>(dBodyGetData(a));
+    const auto& surface_b = *static_cast<const pfx::RigidBody*>(dBodyGetData(b));
+    for (int i = 0; i < count; ++i) {
+      dContact& contact = found[static_cast<size_t>(i)];
+      contact.surface = {};
+      contact.surface.mode = dContactApprox1 | dContactBounce;
+      contact.surface.mu = std::sqrt(surface_a.friction * surface_b.friction);
+      contact.surface.bounce = 0.5f * (surface_a.restitution + surface_b.restitution);
+      dJointAttach(dJointCreateContact(world_, contacts_, &contact), a, b);
+    }
+  }
+
+  OdeLibrary library_;
+  dWorldID world_;
+  dSpaceID space_;
+  dJointGroupID contacts_;
+  std::vector<pfx::RigidBody> surfaces_;
+  std::vector<dBodyID> bodies_;
+};
+
+std::unique_ptr<Engine> make(const pfx::World& world) {
+  auto engine = std::make_unique<OdeEngine>(world);
+  for (uint32_t i = 0; i < world.states().size(); ++i)
+    if (!engine->add(world.states()[i], world.bodies()[i], world.collidables()[i].shapes())) return nullptr;
+  return engine;
+}
+
+}  // namespace
+
+EngineKind odeEngine() { return {sizeof(dReal) == 4 ? "ODE, float" : "ODE, double", make}; }
+
+}  // namespace samples::benchmarks

@@ -1,0 +1,13 @@
+// The samples, one function each: its scenes in the order of the browser.
+#pragma once
+
+#include <vector>
+
+#include "samples/scene.h"
+
+namespace samples {
+
+std::vector<SceneEntry> simpleScenes();  // 1_simple
+std::vector<SceneEntry> stableScenes();  // 2_stable
+
+}  // namespace samples

@@ -1,0 +1,74 @@
+#include "samples/shared/basic_scenes.h"
+
+#include "samples/shared/builders.h"
+
+namespace samples {
+namespace {
+
+using namespace pfx;
+
+struct Primitives final : Scene {
+  void build(World& world) override {
+    addGround(world);
+    addBody(world, "sphere", Sphere{1.0f}, Vec3(-5.0f, 5.0f, 0.0f), 1.0f);
+    addBody(world, "box", Box{Vec3::Ones()}, Vec3(0.0f, 5.0f, 5.0f), 1.0f);
+    addBody(world, "capsule", Capsule{1.5f, 0.5f}, Vec3(5.0f, 5.0f, 0.0f), 2.0f);
+    world.addBody({.name = "compound",
+                   .pose = {.position = Vec3(0.0f, 5.0f, 0.0f)},
+                   .shapes = {shape(Box{Vec3(0.5f, 0.5f, 1.5f)}, {.position = Vec3(-2.0f, 0.0f, 0.0f)}),
+                              shape(Box{Vec3(0.5f, 1.5f, 0.5f)}, {.position = Vec3(2.0f, 0.0f, 0.0f)}),
+                              shape(Capsule{1.5f, 0.5f})},
+                   .mass = 3.0f});
+  }
+};
+
+struct Tower final : Scene {
+  void build(World& world) override {
+    addGround(world);
+    addTower(world, {});
+  }
+};
+
+struct Pyramid final : Scene {
+  void build(World& world) override {
+    addGround(world);
+    addPyramid(world, {});
+  }
+};
+
+template <class T>
+std::unique_ptr<Scene> make() {
+  return std::make_unique<T>();
+}
+
+}  // namespace
+
+std::vector<SceneEntry> basicScenes(std::string_view sample, Pipeline pipeline) {
+  WorldDef world;
+  world.pipeline = pipeline;
+  return {
+      {.sample = sample,
+       .name = "primitives",
+       .shows = "each kind of shape falls, rolls or tips, and comes to rest",
+       .camera = {.target = Vec3(0.0f, 1.2f, 1.0f), .distance = 17.0f, .yaw_deg = 28.0f, .pitch_deg = 22.0f},
+       .frames = {0, 60, 240},
+       .world = world,
+       .make = make<Primitives>},
+      {.sample = sample,
+       .name = "tower",
+       .shows = "192 boxes in eight rings carry each other",
+       .camera = {.target = Vec3(0.0f, 6.5f, 0.0f), .distance = 42.0f, .yaw_deg = 25.0f, .pitch_deg = 26.0f},
+       .frames = {0, 60, 240},
+       .world = world,
+       .make = make<Tower>},
+      {.sample = sample,
+       .name = "pyramid",
+       .shows = "the lowest row carries 190 boxes and does not sink",
+       .camera = {.target = Vec3(0.0f, 8.5f, 0.0f), .distance = 36.0f, .yaw_deg = 32.0f, .pitch_deg = 14.0f},
+       .frames = {0, 60, 240},
+       .world = world,
+       .make = make<Pyramid>},
+  };
+}
+
+}  // namespace samples

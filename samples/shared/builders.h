@@ -1,0 +1,38 @@
+// Builders that several scenes share: the ground, and bodies in the shapes of stacks.
+#pragma once
+
+#include "pfx/high_level/world/world.h"
+
+namespace samples {
+
+// A shape at the body's origin, or moved and turned from it.
+pfx::Shape shape(const pfx::Geometry& geometry, const pfx::Transform& offset = {});
+
+// Fixed box of half extent (150, 2.5, 150) m whose top is y = 0.
+pfx::BodyId addGround(pfx::World& world);
+
+// One active body of one shape.
+pfx::BodyId addBody(pfx::World& world, const char* name, const pfx::Geometry& geometry, const pfx::Vec3& position,
+                    float mass);
+
+struct TowerSize {
+  int layers = 8;
+  int boxes = 24;               // a layer
+  float half_extent = 1.0f;     // m, of a box
+  float mass = 0.5f;            // kg, of a box
+};
+
+// Circular tower on y = 0: rings of boxes, every other ring turned by half a box.
+void addTower(pfx::World& world, const TowerSize& size);
+
+struct PyramidSize {
+  int rows = 20;
+  float half_extent = 0.5f;  // m
+  float gap = 0.02f;         // m, between the boxes of a row
+  float mass = 1.0f;         // kg, of a box
+};
+
+// Pyramid of boxes in the plane z = 0 on y = 0; rows touch exactly.
+void addPyramid(pfx::World& world, const PyramidSize& size);
+
+}  // namespace samples

@@ -1,0 +1,94 @@
+#include "viewer/draw_list/recorder.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace viewer {
+
+namespace {
+
+using pfx::Vec3;
+
+Recorder& self(void* context) { return *static_cast<Recorder*>(context); }
+
+// A rotation by `angle` (rad) of `direction` about `axis`, which is a unit vector across it.
+Vec3 turned(const Vec3& direction, const Vec3& axis, double angle) {
+  return float(std::cos(angle)) * direction + float(std::sin(angle)) * axis.cross(direction);
+}
+
+}  // namespace
+
+void addBox(DrawList& list, const pfx::Transform& pose, const Vec3& half_extent, const Line& style) {
+  const auto corner = [&](int i) {
+    return pose.apply(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1).cwiseProduct(half_extent));
+  };
+  for (int i = 0; i < 8; ++i)
+    for (const int bit : {1, 2, 4})
+      if (!(i & bit)) list.add(Line{corner(i), corner(i | bit), style.color, style.width, style.pick});
+}
+
+void addArc(DrawList& list, const Arc& arc, const Line& style) {
+  constexpr double kStep = 0.1309;  // rad, 7.5 degrees
+  const double sweep = double(arc.end) - arc.start;
+  if (!std::isfinite(sweep)) return;
+  const int n = int(std::clamp(std::ceil(std::abs(sweep) / kStep), 1.0, 480.0));
+  Vec3 last = arc.center + arc.radius * turned(arc.direction, arc.axis, arc.start);
+  for (int i = 1; i <= n; ++i) {
+    const Vec3 next = arc.center + arc.radius * turned(arc.direction, arc.axis, arc.start + sweep * i / n);
+    list.add(Line{last, next, style.color, style.width, style.pick});
+    last = next;
+  }
+}
+
+pfx::DebugRenderCallbacks Recorder::callbacks() {
+  pfx::DebugRenderCallbacks c;
+  c.context = this;
+  c.point = [](void* r, const Vec3& p, pfx::Color color) {
+    self(r).list_->add(Point{p, color, self(r).point_size, self(r).pick});
+  };
+  c.line = [](void* r, const Vec3& from, const Vec3& to, pfx::Color color) {
+    self(r).list_->add(Line{from, to, color, self(r).line_width, self(r).pick});
+  };
+  c.arc = [](void* r, const Vec3& center, const Vec3& axis, const Vec3& direction, float radius, float start,
+             float end, pfx::Color color) {
+    addArc(*self(r).list_, {center, axis, direction, radius, start, end}, self(r).style(color));
+  };
+  c.aabb = [](void* r, const Vec3& center, const Vec3& half_extent, pfx::Color color) {
+    addBox(*self(r).list_, {center, pfx::Quat::Identity()}, half_extent, self(r).style(color));
+  };
+  c.box = [](void* r, const pfx::Transform& pose, const Vec3& half_extent, pfx::Color color) {
+    addBox(*self(r).list_, pose, half_extent, self(r).style(color));
+  };
+  c.define_solid = [](void* r, uint64_t key, const pfx::Geometry& geometry) {
+    self(r).define(key, geometry);
+  };
+  c.draw_solids = [](void* r, uint64_t key, std::span<const pfx::SolidInstance> instances) {
+    self(r).draw(key, instances);
+  };
+  return c;
+}
+
+void Recorder::define(uint64_t key, const pfx::Geometry& geometry) {
+  if (const auto* s = std::get_if<pfx::Sphere>(&geometry)) {
+    placements_[key] = {kRound, Vec3(0.0f, s->radius, s->radius)};
+  } else if (const auto* c = std::get_if<pfx::Capsule>(&geometry)) {
+    placements_[key] = {kRound, Vec3(c->half_length, c->radius, c->radius)};
+  } else if (const auto* b = std::get_if<pfx::Box>(&geometry)) {
+    placements_[key] = {kUnitBox, b->half_extent};
+  } else if (const auto* y = std::get_if<pfx::Cylinder>(&geometry)) {
+    placements_[key] = {kUnitCylinder, Vec3(y->half_length, y->radius, y->radius)};
+  }
+}
+
+void Recorder::draw(uint64_t key, std::span<const pfx::SolidInstance> instances) {
+  const auto found = placements_.find(key);
+  if (found == placements_.end()) return;
+  const Placement place = found->second;
+  list_->append(place.mesh, instances.size(), [&](size_t i) {
+    const pfx::SolidInstance& s = instances[i];
+    return Instance{s.pose.position, s.pose.orientation, place.scale,
+                    s.color,         uint32_t(s.finish), pickId(PickKind::Body, s.body)};
+  });
+}
+
+}  // namespace viewer

@@ -1,0 +1,11 @@
+# Writes OUT, a table of (file name, text) of the shaders in SHADER_DIR.
+file(GLOB shaders ${SHADER_DIR}/*.glsl)
+set(text "// Generated from shaders/*.glsl.\n#include \"viewer/render/shader_source.h\"\n\nnamespace viewer {\n\n")
+string(APPEND text "static constexpr EmbeddedShader kTable[] = {\n")
+foreach(shader IN LISTS shaders)
+  get_filename_component(name ${shader} NAME)
+  file(READ ${shader} source)
+  string(APPEND text "    {\"${name}\", R\"glsl(${source})glsl\"},\n")
+endforeach()
+string(APPEND text "};\n\nstd::span<const EmbeddedShader> embeddedShaders() { return kTable; }\n\n}  // namespace viewer\n")
+file(WRITE ${OUT} "${text}")

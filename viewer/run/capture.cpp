@@ -1,0 +1,39 @@
+// Offscreen pictures.
+#include "viewer/run/capture.h"
+
+#include "viewer/input_error.h"
+
+namespace viewer {
+
+Capture::Capture(const CaptureSettings& settings)
+    : settings_(settings),
+      context_(makeContext({.backend = settings.backend})),
+      renderer_(*context_, {.quality = settings.quality, .shader_dir = {}}) {}
+
+Image Capture::draw(const pfx::World& world, const samples::CameraPose& camera) {
+  // A fresh list each time: a picture must not depend on what was drawn before it.
+  DrawList list;
+  WorldView view(list);
+  list.begin();
+  list.camera = orbitCamera(camera);
+  view.add(world, settings_.overlays);
+  list.end();
+  renderer_.draw({.width = settings_.width, .height = settings_.height}, list);
+  return renderer_.readBack();
+}
+
+void Capture::render(const SceneSpec& scene, std::span<const int> frames,
+                     const std::function<void(RenderedFrame&&)>& use) {
+  SceneRun run(scene, settings_.run);
+  for (int frame : frames) {
+    run.stepTo(uint64_t(frame));
+    use({frame, run.world().stateHash(), draw(run.world(), scene.camera)});
+  }
+}
+
+Backend requireBackend(const std::string& name) {
+  if (const auto backend = parseBackend(name)) return *backend;
+  throw InputError("unknown backend \"" + name + "\"; known: auto, osmesa, egl, glfw");
+}
+
+}  // namespace viewer

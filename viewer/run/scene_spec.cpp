@@ -1,0 +1,78 @@
+// Scenes by the name that the command line uses.
+#include "viewer/run/scene_spec.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <numeric>
+
+#include "viewer/input_error.h"
+
+namespace viewer {
+namespace {
+
+// Letters to insert, delete or replace. Source: R. Wagner, M. Fischer, The String-to-String Correction Problem, 1974.
+size_t editDistance(std::string_view a, std::string_view b) {
+  std::vector<size_t> row(b.size() + 1);
+  std::iota(row.begin(), row.end(), size_t(0));
+  for (size_t i = 0; i < a.size(); ++i) {
+    size_t diagonal = row[0];
+    row[0] = i + 1;
+    for (size_t j = 0; j < b.size(); ++j) {
+      const size_t replaced = diagonal + (a[i] != b[j]);
+      diagonal = row[j + 1];
+      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
+    }
+  }
+  return row.back();
+}
+
+std::string nearestTarget(std::span<const SceneSpec> scenes, std::string_view wanted) {
+  std::string best;
+  size_t best_distance = ~size_t(0);
+  const auto offer = [&](std::string_view spelling, const std::string& target) {
+    const size_t d = editDistance(wanted, spelling);
+    if (d < best_distance) best_distance = d, best = target;
+  };
+  for (const SceneSpec& s : scenes) {
+    const auto bare = std::string_view(s.sample).substr(s.sample.find('_') + 1);  // "stable" of "2_stable"
+    offer(s.sample, s.sample);
+    offer(bare, s.sample);
+    offer(s.target(), s.target());
+    offer(s.name, s.target());
+  }
+  return best;
+}
+
+}  // namespace
+
+std::vector<SceneSpec> allScenes() {
+  std::vector<SceneSpec> out;
+  for (const samples::SceneEntry& e : samples::scenes())
+    out.push_back({std::string(e.sample), std::string(e.name), std::string(e.shows), e.camera, e.frames, e.world, e.make});
+  return out;
+}
+
+std::vector<SceneSpec> findTarget(std::span<const SceneSpec> scenes, std::string_view target) {
+  const auto slash = target.find('/');
+  const std::string_view sample = target.substr(0, slash);
+  std::vector<SceneSpec> found;
+  for (const SceneSpec& s : scenes)
+    if (s.sample == sample && (slash == target.npos || s.name == target.substr(slash + 1))) found.push_back(s);
+  if (!found.empty()) return found;
+
+  const std::string text(target);
+  if (std::filesystem::path(text).extension() == ".xml")
+    throw InputError(text + (std::filesystem::exists(text) ? ": scene files cannot be run yet" : ": no such scene file"));
+  const std::string nearest = nearestTarget(scenes, target);
+  throw InputError("unknown sample or scene \"" + text + "\"" +
+                   (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") + " (vitrine list shows all)");
+}
+
+SceneSpec findScene(std::span<const SceneSpec> scenes, std::string_view target) {
+  std::vector<SceneSpec> found = findTarget(scenes, target);
+  if (found.size() == 1) return std::move(found.front());
+  throw InputError("\"" + std::string(target) + "\" has " + std::to_string(found.size()) +
+                   " scenes; name one, for example " + found.front().target());
+}
+
+}  // namespace viewer
