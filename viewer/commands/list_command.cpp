@@ -9,7 +9,8 @@ namespace viewer {
 namespace {
 
 std::vector<std::string> stagesOf(const SceneSpec& spec) {
-  const SceneRun run(spec);
+  SceneRun run(spec);
+  run.step();  // a world decides in its first step what it has to do
   std::vector<std::string> names;
   for (std::string_view stage : run.world().stages()) names.emplace_back(stage);
   return names;

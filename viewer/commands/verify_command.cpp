@@ -109,9 +109,7 @@ int verify(const Options& options) {
                                 .find_stale = options.targets.empty() && part.count == 1};
   const CaptureSettings capture{.backend = requireBackend(options.backend),
                                 .width = size.width,
-                                .height = size.height,
-                                .overlays = {},
-                                .run = {}};
+                                .height = size.height};
   const fs::path report = reportFolder(options);
   requireWritableFolder(report);
 
