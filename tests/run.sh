@@ -29,7 +29,7 @@ runTests() {
 
 needPackages "${build_packages[@]}" "${test_packages[@]}" -- "${build_packages_optional[@]}" "${test_packages_optional[@]}"
 
-buildPreset release all -DVITRINE_TESTS=ON
+buildPreset release all -DVITRINE_TESTS=ON -DVITRINE_VIEWER=ON
 runTests release
 
 if [ "$quick" = no ]; then

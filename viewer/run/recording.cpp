@@ -159,7 +159,7 @@ void applyFrame(pfx::World& world, const RecordedFrame& frame) {
   for (uint32_t i = 0; i < frame.bodies.size(); ++i) {
     const RecordedBody& recorded = frame.bodies[i];
     const pfx::BodyId id = world.bodyId(i);
-    if (!id) continue;  // a removed body
+    if (!world.isValid(id)) continue;  // a removed body
     pfx::RigidState& state = world.state(id);
     state.position = recorded.position;
     state.orientation = recorded.orientation;

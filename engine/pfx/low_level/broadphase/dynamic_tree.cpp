@@ -96,8 +96,8 @@ uint32_t DynamicTree::descend(const Aabb& box, std::span<Location> locations, ui
     }
     // A slot that is free costs nothing; going down costs what the child grows by.
     const bool room = node.count < 4;
-    const bool is_leaf = node.count > 0 && (node.child[best] & kLeaf) != 0;
-    if (room && (is_leaf || best_growth > own)) return index;
+    const bool is_leaf = (node.child[best] & kLeaf) != 0;
+    if (room && (node.count == 0 || is_leaf || best_growth > own)) return index;
 
     const Aabb child_box = slotBounds(node, best);
     const Location at = index << 2 | best;
