@@ -11,23 +11,40 @@ constexpr uint32_t kPairGrain = 64;
 
 bool isAwakeDynamic(const RigidState& s) { return isDynamic(s.motion_type) && !s.asleep; }
 
+bool isMesh(const Shape& s) { return s.type() == ShapeType::LargeMesh; }
+
+struct BodyPair {
+  const Collidable& a;
+  const Transform& pose_a;
+  const Collidable& b;
+  const Transform& pose_b;
+  float margin;  // m
+};
+
 // Manifolds of all shapes of A against all shapes of B.
-void collideAll(const Collidable& a, const Transform& pose_a, const Collidable& b, const Transform& pose_b, float margin,
-                PairCache& cache, std::vector<ContactManifold>& out) {
+void collideAll(const BodyPair& pair, PairCache& cache, MeshContactScratch& mesh_scratch,
+                std::vector<ContactManifold>& out) {
+  const auto& [a, pose_a, b, pose_b, margin] = pair;
   const auto shapes_a = a.shapes(), shapes_b = b.shapes();
   const bool single = shapes_a.size() == 1 && shapes_b.size() == 1;
   for (uint32_t i = 0; i < shapes_a.size(); ++i) {
     const Aabb box_a = shapeAabb(shapes_a[i].geometry, pose_a * shapes_a[i].offset).grown(margin);
     for (uint32_t j = 0; j < shapes_b.size(); ++j) {
       if (!single && !box_a.overlaps(shapeAabb(shapes_b[j].geometry, pose_b * shapes_b[j].offset))) continue;
-      ContactManifold m;
-      collideShapes({shapes_a[i], pose_a, shapes_b[j], pose_b, margin, single ? &cache : nullptr}, m);
-      if (m.num_points == 0) continue;
+      const size_t first = out.size();
+      const CollideInput input{shapes_a[i], pose_a, shapes_b[j], pose_b, margin, single ? &cache : nullptr};
+      if (isMesh(shapes_a[i]) || isMesh(shapes_b[j])) {
+        collideMesh(input, mesh_scratch, out);
+      } else {
+        ContactManifold m;
+        if (collideShapes(input, m) == 0) continue;
+        m.local_normal = pose_a.orientation.conjugate() * m.normal;
+        out.push_back(m);
+      }
       // Features of different parts must not be mistaken for each other.
-      if (!single)
-        for (int k = 0; k < m.num_points; ++k) m.points[k].feature ^= (i * 64 + j + 1) * 0x9e3779b1u;
-      m.local_normal = pose_a.orientation.conjugate() * m.normal;
-      out.push_back(m);
+      if (single) continue;
+      for (size_t k = first; k < out.size(); ++k)
+        for (int p = 0; p < out[k].num_points; ++p) out[k].points[p].feature ^= (i * 64 + j + 1) * 0x9e3779b1u;
     }
   }
 }
@@ -64,8 +81,9 @@ void CollisionDetector::detectPair(const DetectInput& input, uint32_t index, Con
   }
 
   scratch.found.clear();
-  collideAll(input.collidables[pair.body_a], pose_a, input.collidables[pair.body_b], pose_b,
-             resting + ra.travel + rb.travel, contact.cache, scratch.found);
+  collideAll({input.collidables[pair.body_a], pose_a, input.collidables[pair.body_b], pose_b,
+              resting + ra.travel + rb.travel},
+             contact.cache, scratch.mesh, scratch.found);
   contact.relative = b_in_a;
   for (ContactManifold& m : scratch.found)
     for (int i = 0; i < m.num_points; ++i) inheritImpulses(m.points[i], contacts.manifolds(pair.contact_id));

@@ -10,6 +10,7 @@
 #include "pfx/base_level/collision/pair.h"
 #include "pfx/base_level/rigid_body/rigid_state.h"
 #include "pfx/base_level/shape/collidable.h"
+#include "pfx/base_level/collision/mesh_contact.h"
 #include "pfx/low_level/collision/contact_store.h"
 #include "pfx/low_level/task/task_manager.h"
 
@@ -41,6 +42,7 @@ class CollisionDetector {
     uint32_t pair, first, count;
   };
   struct Scratch {
+    MeshContactScratch mesh;
     std::vector<ContactManifold> found;    // of the pair at hand
     std::vector<ContactManifold> storage;  // of pending pairs
     std::vector<Pending> pending;
