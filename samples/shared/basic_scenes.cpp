@@ -19,7 +19,8 @@ void addPrimitives(World& world) {
                    .shapes = {shape(Box{Vec3(0.5f, 0.5f, 1.5f)}, {.position = Vec3(-2.0f, 0.0f, 0.0f)}),
                               shape(Box{Vec3(0.5f, 1.5f, 0.5f)}, {.position = Vec3(2.0f, 0.0f, 0.0f)}),
                               shape(Capsule{1.5f, 0.5f})},
-                   .mass = 3.0f});
+                   .mass = 3.0f,
+                 .angular_damping = 1.0f});
 }
 
 struct Primitives final : Scene {
@@ -31,7 +32,7 @@ struct Primitives final : Scene {
 
 struct Landscape final : Scene {
   void build(World& world) override {
-    const Quat tilt = rotation(Vec3::UnitX(), 0.12f) * rotation(Vec3::UnitY(), 0.7f);
+    const Quat tilt = rotation(Vec3::UnitX(), 0.06f) * rotation(Vec3::UnitY(), 0.7f);
     world.addBody({.name = "landscape",
                    .pose = {.position = Vec3(0.0f, -2.0f, 0.0f), .orientation = tilt},
                    .motion_type = MotionType::Fixed,

@@ -25,7 +25,7 @@ BodyId addGround(World& world) {
 }
 
 BodyId addBody(World& world, const char* name, const Geometry& geometry, const Vec3& position, float mass) {
-  return world.addBody({.name = name, .pose = {.position = position}, .shapes = {shape(geometry)}, .mass = mass});
+  return world.addBody({.name = name, .pose = {.position = position}, .shapes = {shape(geometry)}, .mass = mass, .angular_damping = 1.0f});
 }
 
 ConvexMesh makeBarrel() {
@@ -50,7 +50,8 @@ LargeMesh makeTerrain(const TerrainSize& size) {
     for (int k = 0; k < side; ++k) {
       const float x = static_cast<float>(i) * pitch - size.half_extent;
       const float z = static_cast<float>(k) * pitch - size.half_extent;
-      vertices.push_back(Vec3(x, size.height * sin(0.35f * x) * cos(0.4f * z), z));
+      const float waves = size.height * sin(0.55f * x) * cos(0.5f * z);
+      vertices.push_back(Vec3(x, waves + size.bowl * (x * x + z * z), z));
     }
   }
   std::vector<uint32_t> indices;

@@ -16,18 +16,19 @@ pfx::Quat rotation(const pfx::Vec3& axis, float angle);
 // Fixed box of half extent (150, 2.5, 150) m whose top is y = 0.
 pfx::BodyId addGround(pfx::World& world);
 
-// One active body of one shape.
+// One active body of one shape; its spin dies away at 1/s, so that round bodies come to rest.
 pfx::BodyId addBody(pfx::World& world, const char* name, const pfx::Geometry& geometry, const pfx::Vec3& position,
                     float mass);
 
 // Barrel of 24 vertices along Y: three rings of eight, the middle one wider. Half height and radius 1 m.
 pfx::ConvexMesh makeBarrel();
 
-// Square terrain of gentle waves, cells x cells squares of two triangles, centred at the origin.
+// Square bowl of gentle waves, cells x cells squares of two triangles, centred at the origin.
 struct TerrainSize {
   int cells = 8;
   float half_extent = 14.0f;  // m, along X and Z
-  float height = 1.0f;        // m, of the waves
+  float height = 0.8f;        // m, of the waves
+  float bowl = 0.03f;         // 1/m: the rim rises by this times the square of the distance
 };
 pfx::LargeMesh makeTerrain(const TerrainSize& size);
 

@@ -43,10 +43,10 @@ class CollisionDetector {
     uint32_t pair, first, count;
   };
   struct Scratch {
+    MeshContactScratch mesh;
     std::vector<ContactManifold> found;    // of the pair at hand
     std::vector<ContactManifold> storage;  // of pending pairs
     std::vector<Pending> pending;
-    MeshContactScratch mesh;
     uint32_t recycled = 0;
   };
 
