@@ -15,11 +15,11 @@ void addPrimitives(World& world) {
   addBody(world, "cylinder", Cylinder{0.5f, 1.5f}, Vec3(0.0f, 10.0f, 0.0f), 3.0f);
   addBody(world, "barrel", world.keep(makeBarrel()), Vec3(0.0f, 15.0f, 0.0f), 3.0f);
   world.addBody({.name = "compound",
-                   .pose = {.position = Vec3(0.0f, 5.0f, 0.0f)},
-                   .shapes = {shape(Box{Vec3(0.5f, 0.5f, 1.5f)}, {.position = Vec3(-2.0f, 0.0f, 0.0f)}),
-                              shape(Box{Vec3(0.5f, 1.5f, 0.5f)}, {.position = Vec3(2.0f, 0.0f, 0.0f)}),
-                              shape(Capsule{1.5f, 0.5f})},
-                   .mass = 3.0f,
+                 .pose = {.position = Vec3(0.0f, 5.0f, 0.0f)},
+                 .shapes = {shape(Box{Vec3(0.5f, 0.5f, 1.5f)}, {.position = Vec3(-2.0f, 0.0f, 0.0f)}),
+                            shape(Box{Vec3(0.5f, 1.5f, 0.5f)}, {.position = Vec3(2.0f, 0.0f, 0.0f)}),
+                            shape(Capsule{1.5f, 0.5f})},
+                 .mass = 3.0f,
                  .angular_damping = 1.0f});
 }
 
@@ -89,7 +89,8 @@ std::vector<SceneEntry> basicScenes(std::string_view sample, Pipeline pipeline) 
        .make = make<Pyramid>},
       {.sample = sample,
        .name = "landscape",
-       .shows = "the same shapes on a mesh of 128 triangles: they follow its slopes and never catch on an inner edge",
+       .shows = "the same shapes on a mesh of 128 triangles: they follow its slopes and never catch on an "
+                "inner edge",
        .camera = {.target = Vec3(0.0f, 0.0f, 0.0f), .distance = 30.0f, .yaw_deg = 28.0f, .pitch_deg = 24.0f},
        .frames = {0, 90, 300},
        .world = world,

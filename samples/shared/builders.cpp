@@ -25,7 +25,11 @@ BodyId addGround(World& world) {
 }
 
 BodyId addBody(World& world, const char* name, const Geometry& geometry, const Vec3& position, float mass) {
-  return world.addBody({.name = name, .pose = {.position = position}, .shapes = {shape(geometry)}, .mass = mass, .angular_damping = 1.0f});
+  return world.addBody({.name = name,
+                        .pose = {.position = position},
+                        .shapes = {shape(geometry)},
+                        .mass = mass,
+                        .angular_damping = 1.0f});
 }
 
 ConvexMesh makeBarrel() {
