@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "viewer/browse/ui_style.h"
 #include "viewer/image/png.h"
 #include "viewer/input_error.h"
 

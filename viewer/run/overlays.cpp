@@ -32,7 +32,10 @@ std::string overlayNames() {
 std::string overlayList(const Overlays& overlays) {
   std::string names;
   for (const Entry& e : kTable)
-    if (overlays.*e.flag) names += (names.empty() ? "" : ",") + std::string(e.name);
+    if (overlays.*e.flag) {
+      if (!names.empty()) names += ',';
+      names += e.name;
+    }
   return names.empty() ? "none" : names;
 }
 
