@@ -13,8 +13,8 @@ esac
 [ -n "${DISPLAY:-}${WAYLAND_DISPLAY:-}" ] || show=gallery
 
 needPackages "${build_packages[@]}" -- "${build_packages_optional[@]}"
-options=()
-[ -f "$project_root/build/release/CMakeCache.txt" ] || options=(-DVITRINE_TESTS=OFF)
+options=(-DVITRINE_VIEWER=ON)
+[ -f "$project_root/build/release/CMakeCache.txt" ] || options+=(-DVITRINE_TESTS=OFF)
 buildPreset release vitrine "${options[@]}"
 vitrine=$project_root/build/release/bin/vitrine
 

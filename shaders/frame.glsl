@@ -14,13 +14,13 @@ layout(std140) uniform Frame {
 };
 
 const vec3 kSkyZenith = vec3(0.170, 0.330, 0.610);
-const vec3 kSkyMiddle = vec3(0.400, 0.590, 0.815);
-const vec3 kSkyHorizon = vec3(0.860, 0.885, 0.880);
-const vec3 kHaze = vec3(0.735, 0.745, 0.735);
+const vec3 kSkyMiddle = vec3(0.340, 0.545, 0.810);
+const vec3 kSkyHorizon = vec3(0.800, 0.860, 0.905);
+const vec3 kHaze = vec3(0.700, 0.735, 0.755);
 
 // Radiance of the sky in a direction (unit) of height y, linear: above and below the horizon.
 vec3 skyAbove(float y) {
-  return mix(mix(kSkyHorizon, kSkyMiddle, smoothstep(0.0, 0.32, y)), kSkyZenith, smoothstep(0.2, 0.95, y));
+  return mix(mix(kSkyHorizon, kSkyMiddle, smoothstep(0.0, 0.24, y)), kSkyZenith, smoothstep(0.2, 0.95, y));
 }
 vec3 skyBelow(float y) { return mix(kSkyHorizon, kHaze, clamp(-5.0 * y, 0.0, 1.0)); }
 

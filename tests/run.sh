@@ -29,7 +29,7 @@ runTests() {
 
 needPackages "${build_packages[@]}" "${test_packages[@]}" -- "${build_packages_optional[@]}" "${test_packages_optional[@]}"
 
-buildPreset release all -DVITRINE_TESTS=ON
+buildPreset release all -DVITRINE_TESTS=ON -DVITRINE_VIEWER=ON
 runTests release
 
 if [ "$quick" = no ]; then
@@ -43,4 +43,5 @@ fi
 
 say "summary after $((SECONDS / 60)) min $((SECONDS % 60)) s"
 printf '%s\n' "${summary[@]}"
+[ "$failed" -eq 0 ] || say "the images that were compared: build/release/report/index.html"
 exit "$failed"

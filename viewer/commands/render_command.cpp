@@ -21,8 +21,7 @@ int render(const Options& options) {
                            .width = size.width,
                            .height = size.height,
                            .overlays = parseOverlays(options.overlays),
-                           .quality = options.quality == "hero" ? Quality::Hero : Quality::Ci,
-                           .run = {}};
+                           .quality = options.quality == "hero" ? Quality::Hero : Quality::Ci};
   std::vector<SceneSpec> scenes = findTarget(allScenes(), options.target);
   size_t total = 0;
   for (SceneSpec& s : scenes) {

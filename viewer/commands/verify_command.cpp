@@ -66,8 +66,8 @@ std::vector<SceneSpec> chooseScenes(const Options& options) {
 }
 
 void printProgress(const FrameResult& r, size_t done, size_t total) {
-  std::fprintf(stderr, "[%zu/%zu] %-4s %s%s%s\n", done, total, r.pass ? "ok" : "FAIL", r.name().c_str(),
-               r.pass ? "" : ": ", r.pass ? "" : r.why.c_str());
+  std::fprintf(stderr, "[%zu/%zu] %s%s%s\n", done, total, r.name().c_str(), r.pass ? "" : ": ",
+               r.pass ? "" : std::string(toText(r.triage)).c_str());
 }
 
 // What a reader of the log needs: failures by kind, the rasteriser rule, where the report is.
@@ -109,9 +109,7 @@ int verify(const Options& options) {
                                 .find_stale = options.targets.empty() && part.count == 1};
   const CaptureSettings capture{.backend = requireBackend(options.backend),
                                 .width = size.width,
-                                .height = size.height,
-                                .overlays = {},
-                                .run = {}};
+                                .height = size.height};
   const fs::path report = reportFolder(options);
   requireWritableFolder(report);
 

@@ -25,8 +25,9 @@ constexpr size_t kFrameHead = 2 * sizeof(uint64_t) + sizeof(uint32_t);
 template <class T>
 void put(std::vector<uint8_t>& out, const T& value) {
   static_assert(std::is_arithmetic_v<T>);
-  const auto* bytes = reinterpret_cast<const uint8_t*>(&value);
-  out.insert(out.end(), bytes, bytes + sizeof value);
+  const size_t at = out.size();
+  out.resize(at + sizeof value);
+  std::memcpy(&out[at], &value, sizeof value);
 }
 
 void put(std::vector<uint8_t>& out, const pfx::Vec3& v) { put(out, v.x()), put(out, v.y()), put(out, v.z()); }
@@ -121,7 +122,7 @@ Recording::Recording(std::vector<uint8_t> bytes, const std::string& name) : byte
     offsets_.resize(size_t(frames) + 1);
     for (uint64_t& offset : offsets_) offset = reader.get<uint64_t>();
     const size_t end = bytes_.size() - sizeof(uint64_t);
-    const uint64_t hash = Reader(std::span(bytes_).subspan(end)).get<uint64_t>();
+    const uint64_t hash = Reader(std::span<const uint8_t>(bytes_).subspan(end)).get<uint64_t>();
     if (XXH3_64bits(bytes_.data(), end) != hash) throw std::runtime_error("is cut off or damaged: wrong checksum");
     checkOffsets(offsets_, bytes_.size() - reader.left(), end);
   } catch (const std::runtime_error& error) {
@@ -133,7 +134,7 @@ Recording Recording::read(const std::filesystem::path& file) { return Recording(
 
 RecordedFrame Recording::frame(size_t index) const {
   const uint64_t begin = offsets_.at(index), end = offsets_.at(index + 1);
-  Reader reader(std::span(bytes_).subspan(begin, end - begin));
+  Reader reader(std::span<const uint8_t>(bytes_).subspan(begin, end - begin));
   RecordedFrame frame;
   frame.step = reader.get<uint64_t>();
   frame.state_hash = reader.get<uint64_t>();
@@ -158,7 +159,7 @@ void applyFrame(pfx::World& world, const RecordedFrame& frame) {
   for (uint32_t i = 0; i < frame.bodies.size(); ++i) {
     const RecordedBody& recorded = frame.bodies[i];
     const pfx::BodyId id = world.bodyId(i);
-    if (!id) continue;  // a removed body
+    if (!world.isValid(id)) continue;  // a removed body
     pfx::RigidState& state = world.state(id);
     state.position = recorded.position;
     state.orientation = recorded.orientation;

@@ -82,11 +82,11 @@ constexpr uint32_t leafCount(MeshChild c) { return (c >> 29 & 3u) + 1; }
 inline constexpr uint32_t kMaxFacets = 0x1fffffffu;
 
 // Bounds as rows of eight: min x, y, z, max x, y, z. Unused children come last and are kNoChild.
-struct MeshNode {
+struct alignas(64) MeshNode {
   float bounds[6][8];
   MeshChild child[8];
 };
-struct QuantizedMeshNode {
+struct alignas(64) QuantizedMeshNode {
   uint16_t bounds[6][8];
   MeshChild child[8];
 };

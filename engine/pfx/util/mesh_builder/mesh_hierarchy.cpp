@@ -69,6 +69,9 @@ struct Split {
   uint32_t left = 0;   // items on the left
 };
 
+// A leaf tests four triangles in the time of one, so that a range costs its blocks of four.
+float blocks(uint32_t items) { return static_cast<float>((items + kMaxLeafFacets - 1) / kMaxLeafFacets); }
+
 // The best border between two bins on one axis.
 Split bestSplit(std::span<const BuildItem> items, const BinMap& map) {
   std::array<Box4, kMaxBins> box;
@@ -84,7 +87,7 @@ Split bestSplit(std::span<const BuildItem> items, const BinMap& map) {
   for (int b = map.bins - 1; b > 0; --b) {
     sum.extend(box[b]);
     n += count[b];
-    right_cost[b] = n == 0 ? 0.0f : sum.halfArea() * static_cast<float>(n);
+    right_cost[b] = n == 0 ? 0.0f : sum.halfArea() * blocks(n);
   }
   Split best;
   sum = Box4();
@@ -93,7 +96,7 @@ Split bestSplit(std::span<const BuildItem> items, const BinMap& map) {
     sum.extend(box[b - 1]);
     n += count[b - 1];
     if (n == 0 || n == items.size()) continue;
-    const float cost = sum.halfArea() * static_cast<float>(n) + right_cost[b];
+    const float cost = sum.halfArea() * blocks(n) + right_cost[b];
     if (cost < best.cost) best = {cost, map, b, n};
   }
   return best;

@@ -1,0 +1,60 @@
+// A world as solids and overlays, through the engine's debug rendering.
+#include "viewer/run/world_view.h"
+
+namespace viewer {
+namespace {
+
+constexpr Color kVelocityColor = 0xff1f8a4c;
+constexpr float kVelocitySeconds = 0.25f;  // s, an arrow shows the way of this time
+constexpr float kSlowest = 0.01f;          // m/s, slower bodies get no arrow
+constexpr float kAxisLength = 0.6f;        // m
+constexpr float kNormalLength = 0.3f;      // m
+
+}  // namespace
+
+// What never moves would only hide the rest, so bounds, axes and velocities are those of the other bodies.
+void WorldView::addBodyOverlays(const pfx::World& world, const Overlays& overlays) {
+  const auto states = world.states();
+  for (uint32_t body = 0; body < states.size(); ++body)
+    debug_.setVisible(body, world.isValid(world.bodyId(body)) && states[body].motion_type != pfx::MotionType::Fixed);
+  debug_.scale = kAxisLength;
+  if (overlays.aabb) debug_.renderAabb(states, world.collidables());
+  if (overlays.axes) debug_.renderLocalAxis(states);
+  if (!overlays.velocity) return;
+  for (uint32_t body = 0; body < states.size(); ++body)
+    if (debug_.getVisible(body) && states[body].linear_velocity.norm() > kSlowest)
+      list_.add(Arrow{states[body].position, states[body].position + kVelocitySeconds * states[body].linear_velocity,
+                      kVelocityColor, 2.0f, pickId(PickKind::Body, body)});
+}
+
+void WorldView::addContacts(const pfx::World& world) {
+  debug_.scale = kNormalLength;
+  const auto pairs = world.contactPairs();
+  for (uint32_t i = 0; i < pairs.size(); ++i) {
+    recorder_.pick = pickId(PickKind::Contact, i);
+    debug_.renderContact(world.states(), pairs[i], world.manifolds(pairs[i]));
+  }
+}
+
+void WorldView::addIslands(const pfx::World& world) {
+  recorder_.line_width = 2.5f;
+  for (uint32_t i = 0; i < world.numIslands(); ++i) {
+    recorder_.pick = pickId(PickKind::Island, i);
+    debug_.renderIsland(i, world.island(i).bodies, world.states(), world.collidables());
+  }
+  recorder_.line_width = 1.5f;
+}
+
+void WorldView::add(const pfx::World& world, const Overlays& overlays) {
+  const auto states = world.states();
+  debug_.resetVisible(uint32_t(states.size()));
+  for (uint32_t body = 0; body < states.size(); ++body) debug_.setVisible(body, world.isValid(world.bodyId(body)));
+  debug_.renderSolids(states, world.collidables());
+  if (overlays.contacts) addContacts(world);
+  if (overlays.islands) addIslands(world);
+  recorder_.pick = 0;
+  if (overlays.world) debug_.renderWorld(world.def().center, world.def().extent);
+  addBodyOverlays(world, overlays);
+}
+
+}  // namespace viewer

@@ -1,0 +1,30 @@
+// Fills a draw list with a world: its bodies as solids, and the overlays that were asked for.
+#pragma once
+
+#include "pfx/high_level/world/world.h"
+#include "pfx/util/debug_render/debug_render.h"
+#include "viewer/draw_list/draw_list.h"
+#include "viewer/draw_list/recorder.h"
+#include "viewer/run/overlays.h"
+
+namespace viewer {
+
+class WorldView {
+ public:
+  // The list must outlive the view.
+  explicit WorldView(DrawList& list) : list_(list), recorder_(list), debug_(recorder_.callbacks()) {}
+
+  // Adds everything; call it between begin() and end() of the list.
+  void add(const pfx::World& world, const Overlays& overlays);
+
+ private:
+  void addBodyOverlays(const pfx::World& world, const Overlays& overlays);
+  void addContacts(const pfx::World& world);
+  void addIslands(const pfx::World& world);
+
+  DrawList& list_;
+  Recorder recorder_;
+  pfx::DebugRender debug_;
+};
+
+}  // namespace viewer
