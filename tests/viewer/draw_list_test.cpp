@@ -170,7 +170,7 @@ TEST(DrawList, AnArcIsAPolylineOnItsCircleFromStartToEnd) {
   EXPECT_LT((lines.back().to - Vec3(1, 0, -2)).norm(), 1e-6f);
   for (size_t i = 0; i < lines.size(); ++i) {
     EXPECT_NEAR((lines[i].to - Vec3(1, 0, 0)).norm(), 2.0f, 1e-6f);
-    if (i > 0) EXPECT_EQ(lines[i].from, lines[i - 1].to);
+    EXPECT_EQ(lines[i].from, i > 0 ? lines[i - 1].to : lines[i].from);
   }
 }
 

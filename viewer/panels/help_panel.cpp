@@ -15,7 +15,11 @@ void helpPanel(const PanelArea& screen, bool& open) {
                                             ImGuiWindowFlags_NoSavedSettings);
   const auto keys = keyBindings();
   const size_t half = (keys.size() + 1) / 2;
-  if (ImGui::BeginTable("keys", 4, ImGuiTableFlags_SizingStretchProp)) {
+  if (ImGui::BeginTable("keys", 4)) {
+    for (const char* half_name : {"left", "right"}) {
+      ImGui::TableSetupColumn(half_name, ImGuiTableColumnFlags_WidthFixed, 5.5f * unit);
+      ImGui::TableSetupColumn("help", ImGuiTableColumnFlags_WidthStretch);
+    }
     for (size_t i = 0; i < half; ++i)
       for (const size_t k : {i, i + half}) {
         ImGui::TableNextColumn();
@@ -26,7 +30,9 @@ void helpPanel(const PanelArea& screen, bool& open) {
     ImGui::EndTable();
   }
   ImGui::Separator();
-  if (ImGui::BeginTable("mouse", 2, ImGuiTableFlags_SizingStretchProp)) {
+  if (ImGui::BeginTable("mouse", 2)) {
+    ImGui::TableSetupColumn("gesture", ImGuiTableColumnFlags_WidthFixed, 12.0f * unit);
+    ImGui::TableSetupColumn("help", ImGuiTableColumnFlags_WidthStretch);
     for (const MouseHelp& m : mouseHelp()) {
       ImGui::TableNextColumn();
       ImGui::TextDisabled("%s", m.gesture);
