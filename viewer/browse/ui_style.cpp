@@ -17,9 +17,11 @@ constexpr const char* kFonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.t
 void addFont(ImFontAtlas& fonts, float scale) {
   std::error_code ignored;
   for (const char* file : kFonts)
-    if (std::filesystem::exists(file, ignored) && fonts.AddFontFromFileTTF(file, std::round(14.0f * scale))) return;
+    if (std::filesystem::exists(file, ignored) && fonts.AddFontFromFileTTF(file, std::round(14.0f * scale)))
+      return;
   ImFontConfig config;
-  config.SizePixels = 13.0f * std::max(1.0f, std::round(scale));  // a bitmap font: only whole factors look right
+  config.SizePixels =
+      13.0f * std::max(1.0f, std::round(scale));  // a bitmap font: only whole factors look right
   fonts.AddFontDefault(&config);
 }
 

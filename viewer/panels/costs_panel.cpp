@@ -9,7 +9,8 @@ namespace viewer {
 namespace {
 
 ImU32 stageColor(size_t index) {
-  return ImGui::ColorConvertFloat4ToU32(ImVec4(ImColor::HSV(float(index) * 0.618034f - float(int(float(index) * 0.618034f)), 0.5f, 0.85f)));
+  return ImGui::ColorConvertFloat4ToU32(
+      ImVec4(ImColor::HSV(float(index) * 0.618034f - float(int(float(index) * 0.618034f)), 0.5f, 0.85f)));
 }
 
 // Bars of the steps, newest at the right, the stages on top of one another.

@@ -31,15 +31,15 @@ bool section(const char* title, bool open = true) {
 }
 
 const char* motionName(pfx::MotionType type) {
-  static constexpr std::array<const char*, pfx::kNumMotionTypes> kNames = {"fixed", "active", "keyframe", "one way",
-                                                                           "trigger"};
+  static constexpr std::array<const char*, pfx::kNumMotionTypes> kNames = {"fixed", "active", "keyframe",
+                                                                           "one way", "trigger"};
   const auto i = size_t(type);
   return i < kNames.size() ? kNames[i] : "unknown";
 }
 
 const char* shapeName(const pfx::Shape& shape) {
-  static constexpr std::array<const char*, pfx::kNumShapeTypes> kNames = {"sphere",   "box",         "capsule",
-                                                                          "cylinder", "convex mesh", "large mesh"};
+  static constexpr std::array<const char*, pfx::kNumShapeTypes> kNames = {
+      "sphere", "box", "capsule", "cylinder", "convex mesh", "large mesh"};
   return kNames[size_t(shape.type())];
 }
 
