@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "pictures.h"
@@ -28,6 +29,13 @@ struct Mistake {
 };
 
 void PrintTo(const Mistake& m, std::ostream* out) { *out << m.arguments; }
+
+// The arguments as an identifier.
+std::string mistakeName(const testing::TestParamInfo<Mistake>& info) {
+  std::string name;
+  for (char c : info.param.arguments) name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return name;
+}
 
 class BadUsage : public testing::TestWithParam<Mistake> {};
 
@@ -70,7 +78,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"replay /etc/passwd", "/etc/passwd: is not a recording"},
         Mistake{"record 2_stable --steps 5 --out /tmp/x", "name one, for example 2_stable/"},
         Mistake{"bench no_such_case", "unknown case \"no_such_case\"; known: "},
-        Mistake{"browse", "vitrine render"}));
+        Mistake{"browse", "vitrine render"}),
+    mistakeName);
 
 TEST(CommandLine, ListJsonHasSamplesScenesStagesAndFrames) {
   const json list = json::parse(runVitrine("list --json").out);

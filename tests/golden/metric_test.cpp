@@ -111,7 +111,8 @@ TEST_P(SeededDefect, FailsOnTheSameRasteriser) {
 
 INSTANTIATE_TEST_SUITE_P(All, SeededDefect,
                          testing::Values(Change::BoxMissing, Change::BoxMovedOneCentimetre, Change::ColourFivePercent,
-                                         Change::LineMissing, Change::DigitChanged));
+                                         Change::LineMissing, Change::DigitChanged),
+                         kChangeName);
 
 class VisibleDefect : public testing::TestWithParam<Change> {};
 
@@ -121,7 +122,8 @@ TEST_P(VisibleDefect, FailsOnAnotherRasteriserToo) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, VisibleDefect,
-                         testing::Values(Change::BoxMissing, Change::LineMissing, Change::DigitChanged));
+                         testing::Values(Change::BoxMissing, Change::LineMissing, Change::DigitChanged),
+                         kChangeName);
 
 TEST(Verdict, ThresholdsAreInclusive) {
   const Image a = flat(640, 360, 100, 100, 100);

@@ -5,6 +5,7 @@
 #include <array>
 #include <cmath>
 #include <random>
+#include <string>
 
 #include "viewer/image/image.h"
 
@@ -23,6 +24,22 @@ inline void setPixel(Image& image, int x, int y, const std::array<float, 3>& col
   for (size_t c = 0; c < 3; ++c)
     px[c] = uint8_t(std::lround(float(px[c]) + coverage * (color[c] - float(px[c]))));
 }
+
+inline const char* nameOf(Change change) {
+  switch (change) {
+    case Change::None: return "None";
+    case Change::BoxMissing: return "BoxMissing";
+    case Change::BoxMovedOneCentimetre: return "BoxMovedOneCentimetre";
+    case Change::ColourFivePercent: return "ColourFivePercent";
+    case Change::LineMissing: return "LineMissing";
+    case Change::DigitChanged: return "DigitChanged";
+    case Change::RoundingNoise: return "RoundingNoise";
+  }
+  return "";
+}
+
+// Names the instances of tests that run once a change.
+inline constexpr auto kChangeName = [](const auto& info) { return std::string(nameOf(info.param)); };
 
 // A rectangle with antialiased left and right edges (px, may be fractions).
 inline void fillBox(Image& image, float x0, float x1, int y0, int y1, const std::array<float, 3>& color) {

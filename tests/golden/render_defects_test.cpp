@@ -67,7 +67,8 @@ TEST_P(RenderedDefect, FailsTheVerdict) {
 
 INSTANTIATE_TEST_SUITE_P(All, RenderedDefect,
                          testing::Values(Change::BoxMissing, Change::BoxMovedOneCentimetre, Change::ColourFivePercent,
-                                         Change::LineMissing, Change::DigitChanged));
+                                         Change::LineMissing, Change::DigitChanged),
+                         kChangeName);
 
 TEST(RenderedVariation, TheSamePictureTwiceIsExact) {
   EXPECT_EQ(imageHash(drawList(Backend::Auto, Change::None)), imageHash(drawList(Backend::Auto, Change::None)));

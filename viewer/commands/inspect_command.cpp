@@ -6,6 +6,7 @@
 #include "viewer/commands/commands.h"
 #include "viewer/input_error.h"
 #include "viewer/run/scene_run.h"
+#include "viewer/run/sleep_facts.h"
 
 namespace viewer {
 namespace {
@@ -30,12 +31,18 @@ ordered_json islandsJson(const pfx::World& world) {
     const pfx::IslandView view = world.island(i);
     auto bodies = ordered_json::array();
     for (uint32_t body : view.bodies) bodies.push_back(bodyJson(world, body));
+    const SleepFacts sleep = explainSleep(world, i);
+    ordered_json fastest = bodyJson(world, sleep.fastest);
+    fastest["linear_speed"] = sleep.linear_speed;
+    fastest["angular_speed"] = sleep.angular_speed;
     islands.push_back({{"id", i},
                        {"bodies", std::move(bodies)},
                        {"contacts", view.contacts.size()},
                        {"joints", 0},
                        {"asleep", view.asleep},
-                       {"sleep_timer", view.sleep_timer}});
+                       {"sleep_timer", view.sleep_timer},
+                       {"why", sleep.why},
+                       {"fastest", std::move(fastest)}});
   }
   return islands;
 }
@@ -106,12 +113,12 @@ void printText(const ordered_json& json) {
   std::printf("%s, frame %d\n", json["target"].get<std::string>().c_str(), json["frame"].get<int>());
   for (const auto& [key, value] : json["counts"].items()) std::printf("  %-16s%u\n", key.c_str(), value.get<uint32_t>());
   if (json.contains("islands")) {
-    std::printf("\nisland  bodies  contacts  state   still for s  members\n");
+    std::printf("\nisland  bodies  contacts  still for s  why, members\n");
     for (const auto& island : json["islands"]) {
       const std::string members = memberList(island["bodies"]);
-      std::printf("%6u  %6zu  %8zu  %-6s  %11.2f  %s\n", island["id"].get<uint32_t>(), island["bodies"].size(),
-                  island["contacts"].get<size_t>(), island["asleep"].get<bool>() ? "asleep" : "awake",
-                  island["sleep_timer"].get<double>(), members.c_str());
+      std::printf("%6u  %6zu  %8zu  %11.2f  %s\n%39s%s\n", island["id"].get<uint32_t>(), island["bodies"].size(),
+                  island["contacts"].get<size_t>(), island["sleep_timer"].get<double>(),
+                  island["why"].get<std::string>().c_str(), "", members.c_str());
     }
   }
   if (json.contains("contacts")) {

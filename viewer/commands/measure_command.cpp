@@ -1,7 +1,7 @@
 // vitrine measure: runs a scene without drawing it and prints its figures.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "viewer/commands/arguments.h"
@@ -9,6 +9,7 @@
 #include "viewer/golden/golden_record.h"
 #include "viewer/input_error.h"
 #include "viewer/run/figures.h"
+#include "viewer/run/progress.h"
 #include "viewer/run/scene_run.h"
 
 namespace viewer {
@@ -62,7 +63,9 @@ ordered_json figuresJson(const Figures& f) {
 
 Measured runSteps(SceneRun& run, const Options& options) {
   Measured m;
+  Progress progress("measure " + run.spec().target(), uint64_t(options.steps));
   for (int i = 0; i < options.steps; ++i) {
+    progress.at(uint64_t(i));
     const auto start = std::chrono::steady_clock::now();
     run.step();
     m.total_ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();

@@ -5,6 +5,7 @@
 #include "viewer/file.h"
 #include "viewer/golden/golden_record.h"
 #include "viewer/input_error.h"
+#include "viewer/run/progress.h"
 #include "viewer/run/recording.h"
 #include "viewer/run/scene_run.h"
 
@@ -24,7 +25,9 @@ int record(const Options& options) {
   SceneRun run(scene, options.run);
   RecordingWriter writer({run.spec().target(), options.run.dt, uint32_t(run.world().def().substeps)});
   writer.add(run.world());
+  Progress progress("record " + run.spec().target(), uint64_t(options.steps));
   for (int i = 0; i < options.steps; ++i) {
+    progress.at(uint64_t(i));
     run.step();
     writer.add(run.world());
   }

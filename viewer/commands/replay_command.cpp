@@ -7,6 +7,7 @@
 #include "viewer/image/png.h"
 #include "viewer/input_error.h"
 #include "viewer/run/capture.h"
+#include "viewer/run/progress.h"
 #include "viewer/run/recording.h"
 #include "viewer/run/scene_run.h"
 
@@ -26,7 +27,9 @@ SceneRun startRun(const Recording& recording) {
 // Runs the scene again beside the recording; the first frame whose state differs ends it.
 int check(const Recording& recording) {
   SceneRun run = startRun(recording);
+  Progress progress("replay " + recording.head().target, recording.numFrames());
   for (size_t i = 0; i < recording.numFrames(); ++i) {
+    progress.at(i);
     const RecordedFrame frame = recording.frame(i);
     run.stepTo(frame.step);
     if (run.world().stateHash() == frame.state_hash) continue;

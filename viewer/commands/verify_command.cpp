@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
+#include <cstdlib>
 #include <thread>
 
 #include "viewer/commands/arguments.h"
@@ -97,17 +98,28 @@ int acceptResults(std::span<const FrameResult> results, const fs::path& golden, 
   return std::any_of(results.begin(), results.end(), broken) ? 1 : 0;
 }
 
+// Threads that draw. Windows may only be made on the main thread. When several draw, the software rasteriser works on
+// each of them alone: its own threads would only get in the way.
+int chooseWorkers(const Options& options, Backend backend) {
+  if (backend == Backend::Glfw) return 1;
+  const int cores = std::clamp(int(std::thread::hardware_concurrency()), 1, kMaxWorkers);
+  const int workers = options.workers > 0 ? options.workers : cores;
+  constexpr int kKeepWhatTheUserSet = 0;
+  if (workers > 1) setenv("LP_NUM_THREADS", "0", kKeepWhatTheUserSet);
+  return workers;
+}
+
 int verify(const Options& options) {
   if (options.approve && options.reason.empty()) throw InputError("--approve needs --reason TEXT");
   const PixelSize size = parseSize(options.size);
   const ShardChoice part = parseShard(options.shard);
   const std::vector<SceneSpec> scenes = shard(chooseScenes(options), part.index, part.count);
-  const int cores = std::clamp(int(std::thread::hardware_concurrency()), 1, kMaxWorkers);
+  const Backend backend = requireBackend(options.backend);
   const VerifySettings settings{.golden_dir = goldenFolder(options),
                                 .strict_renderer = options.strict_renderer,
-                                .workers = options.workers > 0 ? options.workers : cores,
+                                .workers = chooseWorkers(options, backend),
                                 .find_stale = options.targets.empty() && part.count == 1};
-  const CaptureSettings capture{.backend = requireBackend(options.backend),
+  const CaptureSettings capture{.backend = backend,
                                 .width = size.width,
                                 .height = size.height};
   const fs::path report = reportFolder(options);
