@@ -1,4 +1,5 @@
-// The scenes that 1_simple and 2_stable have in common; the two samples differ only in what the world remembers.
+// The scenes that 1_simple and 2_stable have in common; the two samples differ only in what the world
+// remembers.
 #pragma once
 
 #include <vector>

@@ -1,8 +1,6 @@
 // Only the deepest and the outermost contacts are kept while facets stream by, so that their number has no limit.
 #include "pfx/base_level/collision/mesh_clusters.h"
 
-#include <utility>
-
 #include "pfx/base_level/collision/contact_reduction.h"
 
 namespace pfx {
@@ -44,32 +42,61 @@ void addContact(const FacetContext& context, const Vec3& normal, bool primary, c
   c.count = 1 + MeshCluster::kDirections;
 }
 
+namespace {
+
+// The kept contacts that the hull of a cluster needs, outermost first, so that true corners come before points on the
+// edges between them, and names stay the same while a body slides.
+struct Outline {
+  const MeshContact* points[1 + MeshCluster::kDirections];
+  int count = 0;
+};
+
+Outline outlineOf(const MeshCluster& cluster, float size) {
+  const TangentPair t = tangents(cluster.normal);
+  const auto reach = [&](const MeshContact& c, int d) {
+    return c.point_mesh.dot(t.t1) * kOutward[d][0] + c.point_mesh.dot(t.t2) * kOutward[d][1];
+  };
+  Vec3 mean = Vec3::Zero();
+  for (int d = 0; d < MeshCluster::kDirections; ++d) mean += cluster.kept[1 + d].point_mesh;
+  mean /= static_cast<float>(MeshCluster::kDirections);
+  const auto spread = [&](int d) { return (cluster.kept[1 + d].point_mesh - mean).squaredNorm(); };
+
+  int order[MeshCluster::kDirections];
+  for (int d = 0; d < MeshCluster::kDirections; ++d) {
+    int place = d;
+    for (; place > 0 && spread(d) > spread(order[place - 1]); --place) order[place] = order[place - 1];
+    order[place] = d;
+  }
+  Outline outline;
+  const float tolerance = 1e-3f * size;
+  for (const int d : order) {
+    const MeshContact& c = cluster.kept[1 + d];
+    bool covered = false;
+    for (int i = 0; i < outline.count; ++i) covered |= reach(*outline.points[i], d) >= reach(c, d) - tolerance;
+    if (!covered) outline.points[outline.count++] = &c;
+  }
+  // The deepest is kept in any case, unless the outline is as deep to within rounding.
+  const MeshContact& deepest = cluster.kept[0];
+  bool as_deep = false;
+  for (int i = 0; i < outline.count; ++i) as_deep |= outline.points[i]->distance <= deepest.distance + 0.1f * tolerance;
+  if (!as_deep) outline.points[outline.count++] = &deepest;
+  return outline;
+}
+
+}  // namespace
+
 int reduceCluster(const MeshCluster& cluster, float size, MeshContact (&out)[kMaxContactPoints]) {
   if (!cluster.primary && !cluster.touching) return 0;
-  const MeshContact* origin[1 + MeshCluster::kDirections];
-  int n = 0;
-  for (int i = 0; i < cluster.count; ++i) {
-    const MeshContact& k = cluster.kept[i];
-    bool known = false;
-    for (int j = 0; j < n; ++j) known |= (origin[j]->point_mesh - k.point_mesh).norm() < 1e-3f * size;
-    if (!known) origin[n++] = &k;
-  }
-  // Outermost first: where areas are equal within the tolerance of the four-point rule, true corners win.
-  Vec3 mean = Vec3::Zero();
-  for (int i = 0; i < n; ++i) mean += origin[i]->point_mesh / static_cast<float>(n);
-  const auto spread = [&](const MeshContact* c) { return (c->point_mesh - mean).squaredNorm(); };
-  for (int i = 1; i < n; ++i) {
-    for (int j = i; j > 0 && spread(origin[j]) > spread(origin[j - 1]); --j) std::swap(origin[j], origin[j - 1]);
-  }
+  const Outline outline = outlineOf(cluster, size);
   LocalContact candidates[1 + MeshCluster::kDirections];
-  for (int i = 0; i < n; ++i) {
-    const MeshContact& k = *origin[i];
-    candidates[i] = {k.point_mesh, k.point_body, k.distance, static_cast<uint32_t>(i)};
+  for (int i = 0; i < outline.count; ++i) {
+    const MeshContact& c = *outline.points[i];
+    candidates[i] = {c.point_mesh, c.point_body, c.distance, static_cast<uint32_t>(i)};
   }
   LocalManifold manifold;
   manifold.normal = cluster.normal;
-  reduceContacts(std::span(candidates, static_cast<size_t>(n)), manifold);
-  for (int i = 0; i < manifold.num_points; ++i) out[i] = *origin[manifold.points[i].feature];
+  reduceContacts(std::span(candidates, static_cast<size_t>(outline.count)), manifold);
+  for (int i = 0; i < manifold.num_points; ++i) out[i] = *outline.points[manifold.points[i].feature];
   return manifold.num_points;
 }
 

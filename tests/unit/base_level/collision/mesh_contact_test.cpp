@@ -213,7 +213,8 @@ TEST(MeshContact, allTypesGiveTheSameContacts) {
         }
         return d;
       };
-      EXPECT_EQ(deepest(a), deepest(b));
+      // Depths within 1e-4 of the size count as equal when points are chosen.
+      EXPECT_NEAR(deepest(a), deepest(b), 1e-4f * 0.52f);
       compared += !a.empty();
     }
   }
