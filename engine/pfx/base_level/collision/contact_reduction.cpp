@@ -1,5 +1,5 @@
-// Up to eight candidates are searched exhaustively; more are first thinned to the extreme points in eight directions,
-// which loses at most a few per cent of the area.
+// Up to eight candidates are searched exhaustively; more are first thinned to the extreme points in eight
+// directions, which loses at most a few per cent of the area.
 #include "pfx/base_level/collision/contact_reduction.h"
 
 #include <algorithm>
@@ -32,7 +32,8 @@ float squaredSpan(const Planar& a, const Planar& b) {
 
 // Extreme points in eight directions, and the deepest point, without repetition.
 int thinOut(std::span<const LocalContact> candidates, const TangentPair& t, int deepest, Planar* out) {
-  static constexpr float kDirections[8][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+  static constexpr float kDirections[8][2] = {{1, 0}, {0, 1},  {-1, 0},  {0, -1},
+                                              {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
   const auto planar = [&](int i) {
     const LocalContact& c = candidates[i];
     return Planar{c.point_b.dot(t.t1), c.point_b.dot(t.t2), c.distance, i};

@@ -17,7 +17,8 @@ void collideAll(const Collidable& a, const Transform& pose_a, const Collidable& 
   const auto shapes_a = a.shapes(), shapes_b = b.shapes();
   const bool single = shapes_a.size() == 1 && shapes_b.size() == 1;
   for (uint32_t i = 0; i < shapes_a.size(); ++i) {
-    const Aabb box_a = shapeAabb(shapes_a[i].geometry, pose_a * shapes_a[i].offset).grown(margin);
+    Aabb box_a;  // bounds of parts; a single pair has been through the broad phase
+    if (!single) box_a = shapeAabb(shapes_a[i].geometry, pose_a * shapes_a[i].offset).grown(margin);
     for (uint32_t j = 0; j < shapes_b.size(); ++j) {
       if (!single && !box_a.overlaps(shapeAabb(shapes_b[j].geometry, pose_b * shapes_b[j].offset))) continue;
       ContactManifold m;
