@@ -5,9 +5,7 @@
 #include <cmath>
 
 #include "pfx/base_level/collision/gjk.h"
-#include "pfx/base_level/collision/mesh_contact.h"
 #include "pfx/base_level/rigid_body/rotation_update.h"
-#include "pfx/base_level/shape/collidable.h"
 #include "pfx/base_level/shape/convex_mesh.h"
 #include "pfx/base_level/shape/mesh_query.h"
 
@@ -106,59 +104,119 @@ Mover makeMover(const Shape& shape, const Sweep& sweep, Polytope& polytope) {
   return m;
 }
 
-// Bounds, in the frame of the mesh at the start, of all that the body can reach.
-Aabb sweptBounds(const LargeMesh& mesh, const ImpactInput& in) {
-  const Transform to_mesh = relative(in.sweep_a.start * in.shape_a.offset, in.sweep_b.start * in.shape_b.offset);
-  const Aabb start = shapeAabb(in.shape_b.geometry, to_mesh);
-  const Quat to_local = (in.sweep_a.start.orientation * in.shape_a.offset.orientation).conjugate();
-  const Vec3 motion = to_local * (in.sweep_b.motion - in.sweep_a.motion) * in.max_fraction;
-  Aabb box = start;
-  box.extend(Aabb{start.min + motion, start.max + motion});
-  const float reach_b = start.halfExtent().norm() + in.shape_b.offset.position.norm();
-  float turn = in.sweep_b.rotation.norm() * reach_b;
-  const float mesh_turn = in.sweep_a.rotation.norm();
-  if (mesh_turn > 0.0f) {
-    const Vec3 apart = in.sweep_b.start.position - in.sweep_a.start.position;
-    turn += mesh_turn * (apart.norm() + motion.norm() + reach_b);
+// The body as seen from a mesh: a ball that holds it however it turns, on its way.
+struct BallSweep {
+  Vec3 start;     // m, mesh frame, of the body's origin
+  Vec3 motion;    // m
+  float radius;   // m
+  bool straight;  // false: the mesh turns, and the ball only holds the body if it holds all that can happen
+
+  Aabb bounds(float from, float to) const {
+    Aabb box;
+    box.extend(Vec3(start + from * motion));
+    box.extend(Vec3(start + to * motion));
+    return box.grown(1.001f * radius);  // not to be outdone by the rounding of enter()
   }
-  return box.grown(turn + in.tolerance + 1e-5f * (mesh.surface_bounds.halfExtent().norm()));
+
+  // Fraction at which the ball's box first meets `box`; above one: never.
+  float enter(const Aabb& box) const {
+    if (!straight) return 0.0f;
+    float first = 0.0f, last = 1.0f;
+    for (int a = 0; a < 3; ++a) {
+      const float lo = box.min[a] - radius - start[a], hi = box.max[a] + radius - start[a];
+      if (motion[a] == 0.0f) {
+        if (lo > 0.0f || hi < 0.0f) return 2.0f;
+        continue;
+      }
+      const float t0 = lo / motion[a], t1 = hi / motion[a];
+      first = std::max(first, std::min(t0, t1));
+      last = std::min(last, std::max(t0, t1));
+    }
+    return first <= last ? first : 2.0f;
+  }
+};
+
+BallSweep ballSweep(const LargeMesh& mesh, const ImpactInput& in, const Mover& b) {
+  const Transform mesh_pose = in.sweep_a.start * in.shape_a.offset;
+  BallSweep ball;
+  ball.start = mesh_pose.applyInverse(in.sweep_b.start.position);
+  ball.motion = mesh_pose.orientation.conjugate() * (in.sweep_b.motion - in.sweep_a.motion);
+  ball.straight = in.sweep_a.rotation.isZero(0.0f);
+  // Rounding of all these positions.
+  const float slack = 1e-5f * (mesh.surface_bounds.halfExtent().norm() + ball.motion.norm());
+  ball.radius = b.reach + in.tolerance + slack;
+  if (!ball.straight) {
+    const Vec3 apart = in.sweep_b.start.position - in.sweep_a.start.position;
+    ball.radius += in.sweep_a.rotation.norm() * (apart.norm() + ball.motion.norm() + b.reach);
+  }
+  return ball;
 }
 
-// A is the mesh.
-Impact meshImpact(const ImpactInput& in) {
-  const LargeMesh& mesh = *std::get<const LargeMesh*>(in.shape_a.geometry);
-  Polytope polytope_b;
-  const Mover b = makeMover(in.shape_b, in.sweep_b, polytope_b);
-  const Transform b_in_mesh = relative(in.sweep_a.start * in.shape_a.offset, b.at(0.0f));
-  const Vec3 center = b_in_mesh.apply(b.core.center());
-  const bool turns = !in.sweep_a.rotation.isZero(0.0f) || !in.sweep_b.rotation.isZero(0.0f);
-  const Quat to_local = (in.sweep_a.start.orientation * in.shape_a.offset.orientation).conjugate();
-  const Vec3 motion = to_local * (in.sweep_b.motion - in.sweep_a.motion);
+// One facet after the other, along the way of the body.
+class MeshImpact {
+ public:
+  MeshImpact(const ImpactInput& in, const LargeMesh& mesh)
+      : in_(in), mesh_(mesh), b_(makeMover(in.shape_b, in.sweep_b, polytope_b_)), ball_(ballSweep(mesh, in, b_)) {
+    center_ = relative(in.sweep_a.start * in.shape_a.offset, b_.at(0.0f)).apply(b_.core.center());
+    turns_ = !in.sweep_a.rotation.isZero(0.0f) || !in.sweep_b.rotation.isZero(0.0f);
+  }
 
-  Impact best;
-  const auto tryFacet = [&](uint32_t f) {
-    const MeshTriangle t = meshTriangle(mesh, f);
-    if (t.normal.dot(center - t.vertex[0]) < -t.thickness) return;
-    if (!turns && t.normal.dot(motion) >= 0.0f) return;
-    Polytope triangle;
+  Impact find() {
+    // Pieces about as long as the body, so that a long way through a fine mesh looks only at what lies near it.
+    const float pieces = ball_.straight ? std::ceil(ball_.motion.norm() / (4.0f * ball_.radius)) : 1.0f;
+    const int n = static_cast<int>(std::clamp(pieces, 1.0f, 256.0f));
+    for (int i = 0; i < n; ++i) {
+      const float from = static_cast<float>(i) / static_cast<float>(n);
+      const float to = static_cast<float>(i + 1) / static_cast<float>(n);
+      if (from > in_.max_fraction || (best_.touches() && from > best_.fraction)) break;
+      visitFacets(mesh_, ball_.bounds(from, to), [&](uint32_t first, uint32_t count) {
+        for (uint32_t f = first; f < first + count; ++f) tryFacet(f, from, i + 1 < n ? to : 2.0f);
+      });
+    }
+    return best_;
+  }
+
+ private:
+  // Facets belong to the piece in which the ball first meets their bounds.
+  void tryFacet(uint32_t f, float from, float to) {
+    const auto v = facetVertices(mesh_, f);
+    Aabb box;
+    for (const Vec3& p : v) box.extend(p);
+    const float enter = ball_.enter(box);
+    const float limit = std::min(in_.max_fraction, best_.fraction);
+    if (enter < from || enter >= to || enter > limit) return;
+    const MeshTriangle t = meshTriangle(mesh_, f);
+    if (t.normal.dot(center_ - v[0]) < -t.thickness) return;
+    if (!turns_ && t.normal.dot(ball_.motion) >= 0.0f) return;
     // The frame of the core is moved to the facet: far from the mesh's origin the search would lose precision.
-    std::array<Vec3, 3> corners = {Vec3::Zero(), t.vertex[1] - t.vertex[0], t.vertex[2] - t.vertex[0]};
+    const std::array<Vec3, 3> corners = {Vec3::Zero(), v[1] - v[0], v[2] - v[0]};
+    Polytope triangle;
     triangle.vertices = corners;
     triangle.center = (corners[1] + corners[2]) / 3.0f;
-    Mover a{polytopeCore(triangle), in.shape_a.offset * Transform{t.vertex[0], Quat::Identity()}, &in.sweep_a, 0.0f};
-    a.reach = turns ? reachOf(a.core, a.offset) : 0.0f;
-    Impact impact = advance(a, b, {in.tolerance, std::min(in.max_fraction, best.touches() ? best.fraction : 1.0f)});
+    Mover a{polytopeCore(triangle), in_.shape_a.offset * Transform{v[0], Quat::Identity()}, &in_.sweep_a, 0.0f};
+    a.reach = turns_ ? reachOf(a.core, a.offset) : 0.0f;
+    Impact impact = advance(a, b_, {in_.tolerance, limit});
     if (!impact.touches()) return;
     impact.triangle = f;
     // Among facets that are met at the same time the lowest counts, in whichever order they are stored.
-    const bool earlier = !best.touches() || impact.fraction < best.fraction ||
-                         (impact.fraction == best.fraction && mesh.source[f] < mesh.source[best.triangle]);
-    if (earlier) best = impact;
-  };
-  visitFacets(mesh, sweptBounds(mesh, in), [&](uint32_t first, uint32_t count) {
-    for (uint32_t f = first; f < first + count; ++f) tryFacet(f);
-  });
-  return best;
+    const bool earlier = !best_.touches() || impact.fraction < best_.fraction ||
+                         (impact.fraction == best_.fraction && mesh_.source[f] < mesh_.source[best_.triangle]);
+    if (earlier) best_ = impact;
+  }
+
+  const ImpactInput& in_;
+  const LargeMesh& mesh_;
+  Polytope polytope_b_;
+  Mover b_;
+  BallSweep ball_;
+  Vec3 center_;   // m, of the body at the start, mesh frame
+  bool turns_;
+  Impact best_;
+};
+
+// A is the mesh.
+Impact meshImpact(const ImpactInput& in) {
+  return MeshImpact(in, *std::get<const LargeMesh*>(in.shape_a.geometry)).find();
 }
 
 }  // namespace
