@@ -14,9 +14,9 @@ build_packages=(
 # Used where the distribution has them: newer ones ship no OSMesa, and EGL does its work there.
 build_packages_optional=(libosmesa6 libosmesa6-dev)
 
-# To run every test as well. The optional ones are the engines that the benchmarks compare with.
-test_packages=(libgtest-dev libbenchmark-dev xvfb xdotool chromium)
-test_packages_optional=(libbullet-dev libode-dev)
+# To run every test as well. The optional ones: a browser that reads the golden report, and engines to compare with.
+test_packages=(libgtest-dev libbenchmark-dev xvfb xdotool)
+test_packages_optional=(chromium libbullet-dev libode-dev)
 
 say() { printf '\033[1m== %s\033[0m\n' "$*"; }
 fail() { printf '%s\n' "$1" >&2; exit "${2:-1}"; }

@@ -43,4 +43,5 @@ fi
 
 say "summary after $((SECONDS / 60)) min $((SECONDS % 60)) s"
 printf '%s\n' "${summary[@]}"
+[ "$failed" -eq 0 ] || say "the images that were compared: build/release/report/index.html"
 exit "$failed"

@@ -1,6 +1,9 @@
 # How the engine is installed: the library, its headers by floor, a CMake package and a pkg-config file.
 # A version promises what semantic versioning says: before 1.0 the minor number may break callers.
 
+# `cmake --install build/release --component pfx` installs the engine without the program.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME pfx)
+
 install(TARGETS pfx EXPORT pfxTargets
   ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR} LIBRARY DESTINATION ${CMAKE_INSTALL_LIBDIR}
   INCLUDES DESTINATION ${CMAKE_INSTALL_INCLUDEDIR})

@@ -7,18 +7,37 @@ namespace {
 
 using namespace pfx;
 
-struct Primitives final : Scene {
-  void build(World& world) override {
-    addGround(world);
-    addBody(world, "sphere", Sphere{1.0f}, Vec3(-5.0f, 5.0f, 0.0f), 1.0f);
-    addBody(world, "box", Box{Vec3::Ones()}, Vec3(0.0f, 5.0f, 5.0f), 1.0f);
-    addBody(world, "capsule", Capsule{1.5f, 0.5f}, Vec3(5.0f, 5.0f, 0.0f), 2.0f);
-    world.addBody({.name = "compound",
+// One body of each kind of shape, in the air.
+void addPrimitives(World& world) {
+  addBody(world, "sphere", Sphere{1.0f}, Vec3(-5.0f, 5.0f, 0.0f), 1.0f);
+  addBody(world, "box", Box{Vec3::Ones()}, Vec3(0.0f, 5.0f, 5.0f), 1.0f);
+  addBody(world, "capsule", Capsule{1.5f, 0.5f}, Vec3(5.0f, 5.0f, 0.0f), 2.0f);
+  addBody(world, "cylinder", Cylinder{0.5f, 1.5f}, Vec3(0.0f, 10.0f, 0.0f), 3.0f);
+  addBody(world, "barrel", world.keep(makeBarrel()), Vec3(0.0f, 15.0f, 0.0f), 3.0f);
+  world.addBody({.name = "compound",
                    .pose = {.position = Vec3(0.0f, 5.0f, 0.0f)},
                    .shapes = {shape(Box{Vec3(0.5f, 0.5f, 1.5f)}, {.position = Vec3(-2.0f, 0.0f, 0.0f)}),
                               shape(Box{Vec3(0.5f, 1.5f, 0.5f)}, {.position = Vec3(2.0f, 0.0f, 0.0f)}),
                               shape(Capsule{1.5f, 0.5f})},
-                   .mass = 3.0f});
+                   .mass = 3.0f,
+                 .angular_damping = 1.0f});
+}
+
+struct Primitives final : Scene {
+  void build(World& world) override {
+    addGround(world);
+    addPrimitives(world);
+  }
+};
+
+struct Landscape final : Scene {
+  void build(World& world) override {
+    const Quat tilt = rotation(Vec3::UnitX(), 0.06f) * rotation(Vec3::UnitY(), 0.7f);
+    world.addBody({.name = "landscape",
+                   .pose = {.position = Vec3(0.0f, -2.0f, 0.0f), .orientation = tilt},
+                   .motion_type = MotionType::Fixed,
+                   .shapes = {shape(world.keep(makeTerrain({})))}});
+    addPrimitives(world);
   }
 };
 
@@ -50,7 +69,7 @@ std::vector<SceneEntry> basicScenes(std::string_view sample, Pipeline pipeline) 
       {.sample = sample,
        .name = "primitives",
        .shows = "each kind of shape falls, rolls or tips, and comes to rest",
-       .camera = {.target = Vec3(0.0f, 1.2f, 1.0f), .distance = 17.0f, .yaw_deg = 28.0f, .pitch_deg = 22.0f},
+       .camera = {.target = Vec3(0.0f, 1.2f, 1.0f), .distance = 19.0f, .yaw_deg = 28.0f, .pitch_deg = 22.0f},
        .frames = {0, 60, 240},
        .world = world,
        .make = make<Primitives>},
@@ -64,10 +83,17 @@ std::vector<SceneEntry> basicScenes(std::string_view sample, Pipeline pipeline) 
       {.sample = sample,
        .name = "pyramid",
        .shows = "the lowest row carries 190 boxes and does not sink",
-       .camera = {.target = Vec3(0.0f, 8.5f, 0.0f), .distance = 36.0f, .yaw_deg = 32.0f, .pitch_deg = 14.0f},
+       .camera = {.target = Vec3(0.0f, 8.5f, 0.0f), .distance = 33.0f, .yaw_deg = 32.0f, .pitch_deg = 12.0f},
        .frames = {0, 60, 240},
        .world = world,
        .make = make<Pyramid>},
+      {.sample = sample,
+       .name = "landscape",
+       .shows = "the same shapes on a mesh of 128 triangles: they follow its slopes and never catch on an inner edge",
+       .camera = {.target = Vec3(0.0f, 0.0f, 0.0f), .distance = 30.0f, .yaw_deg = 28.0f, .pitch_deg = 24.0f},
+       .frames = {0, 90, 300},
+       .world = world,
+       .make = make<Landscape>},
   };
 }
 

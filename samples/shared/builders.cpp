@@ -1,12 +1,21 @@
 #include "samples/shared/builders.h"
 
+#include <stdexcept>
+
 #include "pfx/base_level/math/trig.h"
+#include "pfx/base_level/shape/convex_hull.h"
+#include "pfx/util/mesh_builder/mesh_builder.h"
 
 namespace samples {
 
 using namespace pfx;
 
 Shape shape(const Geometry& geometry, const Transform& offset) { return {geometry, offset}; }
+
+Quat rotation(const Vec3& axis, float angle) {
+  const SinCos half = sincos(0.5f * angle);
+  return Quat(half.cos, half.sin * axis.x(), half.sin * axis.y(), half.sin * axis.z());
+}
 
 BodyId addGround(World& world) {
   return world.addBody({.name = "ground",
@@ -16,7 +25,45 @@ BodyId addGround(World& world) {
 }
 
 BodyId addBody(World& world, const char* name, const Geometry& geometry, const Vec3& position, float mass) {
-  return world.addBody({.name = name, .pose = {.position = position}, .shapes = {shape(geometry)}, .mass = mass});
+  return world.addBody({.name = name, .pose = {.position = position}, .shapes = {shape(geometry)}, .mass = mass, .angular_damping = 1.0f});
+}
+
+ConvexMesh makeBarrel() {
+  std::vector<Vec3> points;
+  for (int ring = -1; ring <= 1; ++ring) {
+    for (int i = 0; i < 8; ++i) {
+      const SinCos turn = sincos(0.25f * kPi * static_cast<float>(i));
+      const float radius = ring == 0 ? 1.0f : 0.75f;
+      points.push_back(Vec3(radius * turn.cos, static_cast<float>(ring), radius * turn.sin));
+    }
+  }
+  ConvexMesh mesh;
+  if (buildConvexMesh(points, mesh) != Error::Ok) throw std::logic_error("the barrel is not a convex mesh");
+  return mesh;
+}
+
+LargeMesh makeTerrain(const TerrainSize& size) {
+  const int side = size.cells + 1;
+  const float pitch = 2.0f * size.half_extent / static_cast<float>(size.cells);
+  std::vector<Vec3> vertices;
+  for (int i = 0; i < side; ++i) {
+    for (int k = 0; k < side; ++k) {
+      const float x = static_cast<float>(i) * pitch - size.half_extent;
+      const float z = static_cast<float>(k) * pitch - size.half_extent;
+      const float waves = size.height * sin(0.55f * x) * cos(0.5f * z);
+      vertices.push_back(Vec3(x, waves + size.bowl * (x * x + z * z), z));
+    }
+  }
+  std::vector<uint32_t> indices;
+  for (int i = 0; i < size.cells; ++i) {
+    for (int k = 0; k < size.cells; ++k) {
+      const auto at = [&](int di, int dk) { return static_cast<uint32_t>((i + di) * side + k + dk); };
+      indices.insert(indices.end(), {at(0, 0), at(0, 1), at(1, 0), at(1, 0), at(0, 1), at(1, 1)});
+    }
+  }
+  LargeMeshResult built = buildLargeMesh(vertices, indices);
+  if (built.error != Error::Ok) throw std::logic_error("the terrain is not a mesh");
+  return std::move(built.mesh);
 }
 
 void addTower(World& world, const TowerSize& size) {

@@ -11,7 +11,7 @@ endfunction()
 
 set(work ${BUILD}/package_test)
 file(REMOVE_RECURSE ${work})
-run(${CMAKE_COMMAND} --install ${BUILD} --prefix ${work}/first)
+run(${CMAKE_COMMAND} --install ${BUILD} --component pfx --prefix ${work}/first)
 file(RENAME ${work}/first ${work}/moved)
 
 run(${CMAKE_COMMAND} -G ${GENERATOR} -S ${SOURCE}/consumer -B ${work}/consumer -DCMAKE_BUILD_TYPE=Release

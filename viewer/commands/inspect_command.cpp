@@ -1,4 +1,5 @@
 // vitrine inspect: the facts of the inspector panels as text or JSON.
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -92,14 +93,22 @@ std::string nameOf(const ordered_json& body) {
   return (name.empty() ? "body" : name) + " #" + std::to_string(body["index"].get<uint32_t>());
 }
 
+// The first few by name; --json has all.
+std::string memberList(const ordered_json& bodies) {
+  constexpr size_t kShown = 8;
+  std::string members;
+  for (size_t i = 0; i < std::min(kShown, bodies.size()); ++i) members += (i > 0 ? ", " : "") + nameOf(bodies[i]);
+  if (bodies.size() > kShown) members += " and " + std::to_string(bodies.size() - kShown) + " more";
+  return members;
+}
+
 void printText(const ordered_json& json) {
   std::printf("%s, frame %d\n", json["target"].get<std::string>().c_str(), json["frame"].get<int>());
   for (const auto& [key, value] : json["counts"].items()) std::printf("  %-16s%u\n", key.c_str(), value.get<uint32_t>());
   if (json.contains("islands")) {
     std::printf("\nisland  bodies  contacts  state   still for s  members\n");
     for (const auto& island : json["islands"]) {
-      std::string members;
-      for (const auto& body : island["bodies"]) members += (members.empty() ? "" : ", ") + nameOf(body);
+      const std::string members = memberList(island["bodies"]);
       std::printf("%6u  %6zu  %8zu  %-6s  %11.2f  %s\n", island["id"].get<uint32_t>(), island["bodies"].size(),
                   island["contacts"].get<size_t>(), island["asleep"].get<bool>() ? "asleep" : "awake",
                   island["sleep_timer"].get<double>(), members.c_str());

@@ -1,4 +1,5 @@
 // vitrine list: samples, scenes, and the stages that each one runs.
+#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
@@ -8,11 +9,21 @@
 namespace viewer {
 namespace {
 
+// A world reports the stages of its last step, so that a scene has to run a little to show all: one second, in which
+// what falls has landed. Stages that appear later are put behind the one that runs before them.
 std::vector<std::string> stagesOf(const SceneSpec& spec) {
+  constexpr int kSteps = 60;
   SceneRun run(spec);
-  run.step();  // a world decides in its first step what it has to do
   std::vector<std::string> names;
-  for (std::string_view stage : run.world().stages()) names.emplace_back(stage);
+  for (int i = 0; i < kSteps; ++i) {
+    run.step();
+    auto place = names.begin();
+    for (std::string_view stage : run.world().stages()) {
+      auto known = std::find(names.begin(), names.end(), stage);
+      if (known == names.end()) known = names.insert(place, std::string(stage));
+      place = known + 1;
+    }
+  }
   return names;
 }
 

@@ -66,8 +66,8 @@ std::vector<SceneSpec> chooseScenes(const Options& options) {
 }
 
 void printProgress(const FrameResult& r, size_t done, size_t total) {
-  std::fprintf(stderr, "[%zu/%zu] %-4s %s%s%s\n", done, total, r.pass ? "ok" : "FAIL", r.name().c_str(),
-               r.pass ? "" : ": ", r.pass ? "" : r.why.c_str());
+  std::fprintf(stderr, "[%zu/%zu] %s%s%s\n", done, total, r.name().c_str(), r.pass ? "" : ": ",
+               r.pass ? "" : std::string(toText(r.triage)).c_str());
 }
 
 // What a reader of the log needs: failures by kind, the rasteriser rule, where the report is.

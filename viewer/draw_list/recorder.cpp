@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pfx/base_level/shape/convex_mesh.h"
+#include "pfx/base_level/shape/large_mesh.h"
+
 namespace viewer {
 
 namespace {
@@ -14,6 +17,27 @@ Recorder& self(void* context) { return *static_cast<Recorder*>(context); }
 // A rotation by `angle` (rad) of `direction` about `axis`, which is a unit vector across it.
 Vec3 turned(const Vec3& direction, const Vec3& axis, double angle) {
   return float(std::cos(angle)) * direction + float(std::sin(angle)) * axis.cross(direction);
+}
+
+MeshData triangulate(const pfx::ConvexMesh& mesh) {
+  std::vector<uint32_t> indices;
+  for (const pfx::PolytopeFace& face : mesh.faces)
+    for (uint32_t k = 2; k < face.count; ++k) {
+      const uint16_t* corner = &mesh.face_vertices[face.first];
+      indices.insert(indices.end(), {corner[0], corner[k - 1], corner[k]});
+    }
+  return makeMesh(mesh.vertices, indices);
+}
+
+MeshData triangulate(const pfx::LargeMesh& mesh) {
+  std::vector<Vec3> points;
+  std::vector<uint32_t> indices;
+  for (uint32_t facet = 0; facet < mesh.numFacets(); ++facet)
+    for (const Vec3& corner : pfx::facetVertices(mesh, facet)) {
+      indices.push_back(uint32_t(points.size()));
+      points.push_back(corner);
+    }
+  return makeMesh(points, indices);
 }
 
 }  // namespace
@@ -77,6 +101,13 @@ void Recorder::define(uint64_t key, const pfx::Geometry& geometry) {
     placements_[key] = {kUnitBox, b->half_extent};
   } else if (const auto* y = std::get_if<pfx::Cylinder>(&geometry)) {
     placements_[key] = {kUnitCylinder, Vec3(y->half_length, y->radius, y->radius)};
+  } else {
+    placements_[key] = {key, Vec3::Ones()};
+    if (list_->hasMesh(key)) return;
+    if (const auto* convex = std::get_if<const pfx::ConvexMesh*>(&geometry); convex && *convex)
+      list_->defineMesh(key, triangulate(**convex));
+    else if (const auto* mesh = std::get_if<const pfx::LargeMesh*>(&geometry); mesh && *mesh)
+      list_->defineMesh(key, triangulate(**mesh));
   }
 }
 

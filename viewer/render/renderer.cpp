@@ -101,7 +101,7 @@ struct Renderer::Impl {
     overlay.draw(scene.width(), scene.height(), quality.side);
   }
 
-  void drawIds(const FrameInput& frame, const DrawList& list) {
+  FrameBlock drawIds(const FrameInput& frame, const DrawList& list) {
     fit(id_map, frame.width, frame.height, {.color = GL_R32UI, .depth = true});
     id_map.bind();
     apply(gl, {.depth = Depth::TestAndWrite});
@@ -114,6 +114,7 @@ struct Renderer::Impl {
     sendFrame(block);
     ids.draw(store.draws(), block);
     overlay.drawIds(frame.width, frame.height);
+    return block;
   }
 
   void checkErrors() {
@@ -206,18 +207,24 @@ std::vector<uint32_t> Renderer::readIds(const FrameInput& frame, const DrawList&
   return ids;
 }
 
-uint32_t Renderer::pick(const FrameInput& frame, const DrawList& list, int x, int y) {
+PickHit Renderer::pick(const FrameInput& frame, const DrawList& list, int x, int y) {
   checkSize(frame);
-  if (x < 0 || y < 0 || x >= frame.width || y >= frame.height) return 0;
+  PickHit hit;
+  if (x < 0 || y < 0 || x >= frame.width || y >= frame.height) return hit;
   Impl& r = *impl_;
   r.context.makeCurrent();
   r.store.update(list);
   r.overlay.update(list);
-  r.drawIds(frame, list);
-  uint32_t id = 0;
-  r.gl.ReadPixels(x, frame.height - 1 - y, 1, 1, GL_RED_INTEGER, GL_UNSIGNED_INT, &id);
+  const FrameBlock block = r.drawIds(frame, list);
+  float depth = 1.0f;
+  const int row = frame.height - 1 - y;
+  r.gl.ReadPixels(x, row, 1, 1, GL_RED_INTEGER, GL_UNSIGNED_INT, &hit.id);
+  r.gl.ReadPixels(x, row, 1, 1, GL_DEPTH_COMPONENT, GL_FLOAT, &depth);
   r.checkErrors();
-  return id;
+  const Eigen::Vector4f clip(2.0f * (float(x) + 0.5f) / float(frame.width) - 1.0f,
+                             2.0f * (float(row) + 0.5f) / float(frame.height) - 1.0f, 2.0f * depth - 1.0f, 1.0f);
+  hit.position = (block.clip_from_world.inverse() * clip).hnormalized();
+  return hit;
 }
 
 void Renderer::blit(int window_width, int window_height) {
@@ -232,13 +239,16 @@ void Renderer::blit(int window_width, int window_height) {
   r.checkErrors();
 }
 
+std::string Renderer::rasterizer(GlContext& context) {
+  context.makeCurrent();
+  const auto* text = reinterpret_cast<const char*>(context.gl().GetString(GL_RENDERER));
+  return text ? text : "unknown";
+}
+
 std::string Renderer::fingerprint() const {
-  const auto text = [&](GLenum name) {
-    const auto* s = reinterpret_cast<const char*>(impl_->gl.GetString(name));
-    return std::string(s ? s : "unknown");
-  };
-  impl_->context.makeCurrent();
-  return text(GL_RENDERER) + " | " + text(GL_VERSION);
+  const std::string renderer = rasterizer(impl_->context);
+  const auto* version = reinterpret_cast<const char*>(impl_->gl.GetString(GL_VERSION));
+  return renderer + " | " + (version ? version : "unknown");
 }
 
 }  // namespace viewer

@@ -41,6 +41,11 @@ struct RenderStats {
   size_t uploaded_bytes = 0;  // instances, lines and meshes sent in this frame
 };
 
+struct PickHit {
+  uint32_t id = 0;                          // pick id; 0: nothing
+  pfx::Vec3 position = pfx::Vec3::Zero();   // m, of the visible surface; the far plane when there is nothing
+};
+
 // GL reported an error, a shader did not compile, or a size is out of range.
 class RenderError : public std::runtime_error {
  public:
@@ -59,9 +64,8 @@ class Renderer {
   // the list had something in it (a blank picture is a fault, not a result).
   Image readBack();
 
-  // What is under a pixel of the last frame (0,0: top left), as a pick id; 0: nothing. Draws an id pass of
-  // the neighbourhood, so it costs nothing unless called.
-  uint32_t pick(const FrameInput& frame, const DrawList& list, int x, int y);
+  // What is under a pixel of a picture (0,0: top left). Draws an id pass, so it costs nothing unless called.
+  PickHit pick(const FrameInput& frame, const DrawList& list, int x, int y);
   // The id of every pixel, rows from top to bottom: for tests and counts of what is visible.
   std::vector<uint32_t> readIds(const FrameInput& frame, const DrawList& list);
 
@@ -70,6 +74,7 @@ class Renderer {
 
   // Names the rasteriser: GL_RENDERER and GL_VERSION. Part of a golden image's identity.
   std::string fingerprint() const;
+  static std::string rasterizer(GlContext& context);  // GL_RENDERER alone
 
  private:
   struct Impl;

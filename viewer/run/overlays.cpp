@@ -29,6 +29,13 @@ std::string overlayNames() {
   return names;
 }
 
+std::string overlayList(const Overlays& overlays) {
+  std::string names;
+  for (const Entry& e : kTable)
+    if (overlays.*e.flag) names += (names.empty() ? "" : ",") + std::string(e.name);
+  return names.empty() ? "none" : names;
+}
+
 Overlays parseOverlays(const std::string& list) {
   Overlays out;
   std::istringstream parts(list);

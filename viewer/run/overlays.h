@@ -21,6 +21,9 @@ struct Overlays {
 // "aabb, axes, ...": all names.
 std::string overlayNames();
 
+// "aabb,axes": the ones that are on, as parseOverlays reads them; "none" for none.
+std::string overlayList(const Overlays& overlays);
+
 // From a list such as "contacts,islands"; "all" and "none" are understood. Throws InputError naming what is unknown.
 Overlays parseOverlays(const std::string& list);
 

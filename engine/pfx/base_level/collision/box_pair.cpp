@@ -118,7 +118,7 @@ float edgeContact(const Axis& axis, const Vec3& ha, const Vec3& hb, const LocalP
   b1 = pair.b_in_a.toA(b1);
   const SegmentPair at = closestOnSegments(a0, a1, b0, b1);
   const Vec3 p = a0 + at.s * (a1 - a0), q = b0 + at.t * (b1 - b0);
-  m.add({p, q, (q - p).dot(axis.normal), uint32_t(axis.code) << 8 | signs});
+  m.add(oppositePoints(p, q, axis.normal, uint32_t(axis.code) << 8 | signs));
   return (q - p).norm();
 }
 

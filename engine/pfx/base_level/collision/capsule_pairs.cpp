@@ -12,10 +12,17 @@ namespace {
 // Segments count as parallel below this squared sine (three degrees); capsules then touch along a line.
 constexpr float kParallelSquaredSine = 0.0027f;
 
-Vec3 crossNormal(const Vec3& axis_a, const Vec3& axis_b) {
-  const Vec3 n = axis_a.cross(axis_b);
-  return n.squaredNorm() > 1e-8f ? Vec3(n.normalized()) : tangents(axis_a).t1;
+// Segments that cross this close, as a fraction of the size, get the normal of their common plane; the direction between
+// the closest points would be mostly rounding.
+constexpr float kCrossing = 1e-3f;
+
+Vec3 crossNormal(const Vec3& axis_a, const Vec3& axis_b, const Vec3& toward) {
+  Vec3 n = axis_a.cross(axis_b);
+  n = n.squaredNorm() > 1e-8f ? Vec3(n.normalized()) : tangents(axis_a).t1;
+  return n.dot(toward) < 0.0f ? Vec3(-n) : n;
 }
+
+bool isInner(float fraction) { return fraction > 0.0f && fraction < 1.0f; }
 
 }  // namespace
 
@@ -31,15 +38,16 @@ void collideCapsuleCapsule(const LocalPair& pair, LocalResult& result) {
   const float length = (q - p).norm();
   LocalManifold& m = result.manifold;
   const float size = std::max(a.half_length + a.radius, b.half_length + b.radius);
-  m.normal = length > 1e-6f * size ? Vec3((q - p) / length) : crossNormal(axis_a, axis_b);
+  const bool crossing = length < kCrossing * size && isInner(at.s) && isInner(at.t);
+  m.normal = crossing || length < 1e-6f * size ? crossNormal(axis_a, axis_b, q - p) : Vec3((q - p) / length);
   const float distance = length - radius;
   if (distance > pair.margin) {
     result.separation = distance;
     return;
   }
   const auto addAt = [&](const Vec3& on_a, const Vec3& on_b, uint32_t id) {
-    const float d = (on_b - on_a).dot(m.normal) - radius;
-    if (d <= pair.margin) m.add({on_a + a.radius * m.normal, on_b - b.radius * m.normal, d, id});
+    const LocalContact c = oppositePoints(on_a + a.radius * m.normal, on_b - b.radius * m.normal, m.normal, id);
+    if (c.distance <= pair.margin) m.add(c);
   };
 
   // Side by side: the ends of the stretch of B that lies beside A. Distances are taken along the normal, so the point on

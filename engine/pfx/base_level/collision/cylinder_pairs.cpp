@@ -104,7 +104,7 @@ CoreAxis overlapAxis(const CylinderPair& p) {
 // Where a face or cap is as good an axis as the one found, its own normal is exact and steady.
 void snapNormal(const CylinderPair& p, float size, CoreAxis& axis) {
   const RelativePose& pose = p.pair.b_in_a;
-  const float needed = axis.separation - kSnap * size - 1e-4f * std::abs(axis.separation);
+  const float needed = axis.separation - kSnap * (size + std::abs(axis.separation));
   const auto trySnap = [&](const Vec3& n) {
     if (n.dot(axis.normal) < 0.99f) return false;
     const float separation = separationAlong(p.a, p.b, pose, n);

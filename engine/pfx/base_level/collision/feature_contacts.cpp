@@ -71,18 +71,17 @@ bool insideFace(const ContactPolygon& face, const Vec3& p, const Vec3& n, float 
 }  // namespace
 
 void ContactCollector::add(const Vec3& on_a, const Vec3& on_b, uint32_t feature) {
-  const float distance = (on_b - on_a).dot(normal_);
-  if (distance > range_.margin || distance < range_.separation - range_.tolerance || count_ == kCapacity) return;
-  contacts_[count_++] = {on_a, on_b, distance, feature};
+  const LocalContact c = oppositePoints(on_a, on_b, normal_, feature);
+  if (c.distance > range_.margin || c.distance < range_.separation - range_.tolerance || count_ == kCapacity) return;
+  contacts_[count_++] = c;
 }
 
 void ContactCollector::ensureDepth(const Vec3& on_a, const Vec3& on_b) {
   for (const LocalContact& c : contacts()) {
     if (c.distance <= range_.separation + range_.tolerance) return;
   }
-  const Vec3 gap = on_b - on_a;
-  const Vec3 middle = on_a + 0.5f * (gap - gap.dot(normal_) * normal_);
-  add(middle, middle + range_.separation * normal_, 1);
+  const LocalContact c = oppositePoints(on_a, on_b, normal_, 1);
+  add(c.point_a, c.point_a + range_.separation * normal_, 1);
 }
 
 void ContactCollector::discFace(const ContactDisc& a, const ContactPolygon& b) {

@@ -16,6 +16,15 @@ struct LocalContact {
   uint32_t feature = 0;
 };
 
+// A contact between two points that do not lie exactly opposite each other: what they are apart across the normal is
+// shared between them.
+inline LocalContact oppositePoints(const Vec3& on_a, const Vec3& on_b, const Vec3& normal, uint32_t feature) {
+  const Vec3 gap = on_b - on_a;
+  const float distance = gap.dot(normal);
+  const Vec3 a = on_a + 0.5f * (gap - distance * normal);
+  return {a, a + distance * normal, distance, feature};
+}
+
 struct LocalManifold {
   Vec3 normal = Vec3::UnitY();  // unit, from A to B, frame of A
   int num_points = 0;

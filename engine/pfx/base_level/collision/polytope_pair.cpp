@@ -61,7 +61,7 @@ void edgePoint(const PolytopePair& p, const PolytopeAxis& axis, const LocalPair&
   const Vec3 b0 = pair.b_in_a.toA(p.b.vertices[eb.v0]), b1 = pair.b_in_a.toA(p.b.vertices[eb.v1]);
   const SegmentPair at = closestOnSegments(a0, a1, b0, b1);
   const Vec3 on_a = a0 + at.s * (a1 - a0), on_b = b0 + at.t * (b1 - b0);
-  m.add({on_a, on_b, (on_b - on_a).dot(axis.normal), encode(axis)});
+  m.add(oppositePoints(on_a, on_b, axis.normal, encode(axis)));
 }
 
 // The axis of a pair with a clear gap: a face normal where the closest points lie on a face, else their direction.

@@ -25,6 +25,12 @@ struct RigidState {
   Transform pose() const { return {position, orientation}; }
 };
 
+// Whether the body may be somewhere else after the step: a dynamic one that is awake, or a scripted one with a velocity.
+inline bool moves(const RigidState& s) {
+  if (isDynamic(s.motion_type)) return !s.asleep;
+  return s.motion_type != MotionType::Fixed && !(s.linear_velocity.isZero(0.0f) && s.angular_velocity.isZero(0.0f));
+}
+
 constexpr bool filtersMatch(uint32_t self_a, uint32_t target_a, uint32_t self_b, uint32_t target_b) {
   return (self_a & target_b) != 0 && (self_b & target_a) != 0;
 }

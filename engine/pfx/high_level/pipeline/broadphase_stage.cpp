@@ -18,18 +18,30 @@ ContactReach reachOf(const World::Impl& w, uint32_t i) {
   return {.resting = kRestingMargin * size, .travel = std::min(speed * w.dt, size)};
 }
 
-void updateProxies(World::Impl& w) {
-  const uint32_t n = static_cast<uint32_t>(w.store.states.size());
-  w.proxies.resize(n);
-  w.reach.resize(n);
+// Writes the proxies of `bodies`, with bounds grown by their reach.
+void makeProxies(World::Impl& w, std::span<const uint32_t> bodies, std::vector<BroadphaseProxy>& proxies) {
+  proxies.resize(bodies.size());
+  w.reach.resize(w.store.states.size());
   const WorldBox box{w.def.center, w.def.extent};
-  w.tasks.parallelFor(n, kProxyGrain, [&](TaskRange r) {
-    for (uint32_t i = r.begin; i < r.end; ++i) {
-      w.reach[i] = reachOf(w, i);
-      const float margin = w.reach[i].resting + w.reach[i].travel;
-      updateProxy(w.store.states[i], w.store.collidables[i], box, margin, w.proxies[i]);
+  w.tasks.parallelFor(static_cast<uint32_t>(bodies.size()), kProxyGrain, [&](TaskRange r) {
+    for (uint32_t k = r.begin; k < r.end; ++k) {
+      const uint32_t i = bodies[k];
+      const ContactReach reach = w.reach[i] = reachOf(w, i);
+      updateProxy(w.store.states[i], w.store.collidables[i], box, reach.resting + reach.travel, proxies[k]);
     }
   });
+}
+
+void restChangedBodies(World::Impl& w) {
+  auto& changed = w.changed_bodies;
+  std::erase_if(changed, [&](uint32_t i) {
+    if (w.store.exists(i)) return moves(w.store.states[i]);
+    w.tree.remove(i);
+    return true;
+  });
+  makeProxies(w, changed, w.proxies);
+  w.tree.rest(w.proxies);
+  changed.clear();
 }
 
 }  // namespace
@@ -41,7 +53,10 @@ void begin(World::Impl& w) {
 }
 
 void findPairsAnew(World::Impl& w) {
-  updateProxies(w);
+  w.all_bodies.clear();
+  for (uint32_t i = 0; i < w.store.states.size(); ++i)
+    if (w.store.exists(i)) w.all_bodies.push_back(i);
+  makeProxies(w, w.all_bodies, w.proxies);
   const auto found = w.sweep.findPairs(w.proxies, axisOfLargestVariance(w.proxies), &w.tasks);
   w.pairs.assign(found.begin(), found.end());
   w.contacts.clear();
@@ -49,8 +64,10 @@ void findPairsAnew(World::Impl& w) {
 }
 
 void updatePairs(World::Impl& w) {
-  updateProxies(w);
-  const auto found = w.sweep.findPairs(w.proxies, axisOfLargestVariance(w.proxies), &w.tasks);
+  restChangedBodies(w);
+  makeProxies(w, w.moving, w.proxies);
+  w.tree.update(w.proxies, &w.tasks);
+  const auto found = w.tree.activePairs();
   w.next_pairs.assign(found.begin(), found.end());
   auto out = w.next_pairs.begin();
   comparePairs(

@@ -7,10 +7,8 @@
 namespace pfx::stage {
 
 void detectCollisions(World::Impl& w) {
-  const DetectInput input{.states = w.store.states,
-                          .collidables = w.store.collidables,
-                          .reach = w.reach,
-                          .pairs = w.pairs};
+  const DetectInput input{
+      .states = w.store.states, .collidables = w.store.collidables, .reach = w.reach, .pairs = w.pairs};
   w.detector.detect(input, w.contacts, w.tasks);
 }
 
@@ -19,7 +17,8 @@ void gatherConstraints(World::Impl& w) {
     if (!w.solves(pair)) continue;
     const RigidState &a = w.store.states[pair.body_a], &b = w.store.states[pair.body_b];
     const RigidBody &ba = w.store.bodies[pair.body_a], &bb = w.store.bodies[pair.body_b];
-    const bool one_way_a = a.motion_type == MotionType::OneWay, one_way_b = b.motion_type == MotionType::OneWay;
+    const bool one_way_a = a.motion_type == MotionType::OneWay,
+               one_way_b = b.motion_type == MotionType::OneWay;
     for (ContactManifold& m : w.contacts.manifolds(pair.contact_id)) {
       w.constraints.push_back({.manifold = &m,
                                .solver_a = pair.body_a,  // replaced by the set-up
@@ -31,7 +30,8 @@ void gatherConstraints(World::Impl& w) {
     }
   }
   w.solver_index.assign(w.store.states.size(), kNoSolverBody);
-  for (const ContactConstraint& c : w.constraints) w.solver_index[c.solver_a] = w.solver_index[c.solver_b] = 0;
+  for (const ContactConstraint& c : w.constraints)
+    w.solver_index[c.solver_a] = w.solver_index[c.solver_b] = 0;
   w.free_bodies.clear();
   for (uint32_t i : w.active)
     if (w.solver_index[i] == kNoSolverBody) w.free_bodies.push_back(i);

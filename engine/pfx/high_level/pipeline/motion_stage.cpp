@@ -1,12 +1,18 @@
-// Bodies that the solver does not move: key frames; and bodies that stop moving: sleep.
-#include <algorithm>
-
+// Bodies whose pose is given from outside.
 #include "pfx/high_level/pipeline/stages.h"
 #include "pfx/high_level/world/world_impl.h"
 
 namespace pfx::stage {
 
+// A body that was told its pose takes it exactly. It stands still afterwards until it is told the next one; a
+// body that was only given a velocity goes on with that.
 void followKeyframes(World::Impl& w) {
+  for (uint32_t i : w.moving) {
+    RigidState& s = w.store.states[i];
+    if (isDynamic(s.motion_type)) continue;
+    s.position += w.dt * s.linear_velocity;
+    s.orientation = (expMap(w.dt * s.angular_velocity) * s.orientation).normalized();
+  }
   for (const KeyframeTarget& k : w.keyframes) {
     RigidState& s = w.store.states[k.body];
     s.position = k.pose.position;
@@ -14,26 +20,7 @@ void followKeyframes(World::Impl& w) {
     s.linear_velocity = s.angular_velocity = Vec3::Zero();
   }
   w.keyframes.clear();
-}
-
-void putToSleep(World::Impl& w) {
-  w.linkIslands();
-  const float limit2 = w.def.sleep_velocity * w.def.sleep_velocity;
-  for (uint32_t k = 0; k < w.islands.size(); ++k) {
-    uint32_t least = 0xffffffffu;
-    for (uint32_t i : w.islands.bodies(k)) {
-      RigidState& s = w.store.states[i];
-      const bool slow = s.linear_velocity.squaredNorm() < limit2 && s.angular_velocity.squaredNorm() < limit2;
-      s.sleep_count = slow && s.can_sleep ? s.sleep_count + 1 : 0;
-      least = std::min(least, s.sleep_count);
-    }
-    if (least <= w.def.sleep_steps) continue;
-    for (uint32_t i : w.islands.bodies(k)) {
-      w.store.states[i].asleep = true;
-      w.store.states[i].linear_velocity = w.store.states[i].angular_velocity = Vec3::Zero();
-    }
-    w.active_changed = true;
-  }
+  w.active_changed = true;  // those that stand still now are no longer listed as moving
 }
 
 }  // namespace pfx::stage

@@ -22,7 +22,8 @@ SoftStepParams solveParams(const World::Impl& w) {
 SolverBody makeSolverBody(const RigidState& s, const RigidBody& body, const Inertia& inertia) {
   SolverBody b;
   for (int i = 0; i < 3; ++i) b.v[i] = s.linear_velocity[i], b.w[i] = s.angular_velocity[i];
-  b.dq[0] = s.orientation.x(), b.dq[1] = s.orientation.y(), b.dq[2] = s.orientation.z(), b.dq[3] = s.orientation.w();
+  b.dq[0] = s.orientation.x(), b.dq[1] = s.orientation.y(), b.dq[2] = s.orientation.z(),
+  b.dq[3] = s.orientation.w();
   if (isDynamic(s.motion_type)) {
     b.inv_mass = 1.0f / body.mass;
     setInverseInertia(b, worldInverseInertia(s.orientation, inertia));

@@ -9,13 +9,13 @@
 namespace pfx {
 namespace {
 
-bool hasBodies(const World::Impl& w) { return w.store.count() > 0; }
 bool hasSeveralBodies(const World::Impl& w) { return w.store.count() > 1; }
 bool hasPairs(const World::Impl& w) { return !w.pairs.empty(); }
 bool hasConstraints(const World::Impl& w) { return !w.constraints.empty(); }
 bool hasFreeBodies(const World::Impl& w) { return !w.free_bodies.empty(); }
-bool hasKeyframes(const World::Impl& w) { return !w.keyframes.empty(); }
-bool sleeps(const World::Impl& w) { return w.def.sleeping && hasBodies(w); }
+bool hasKeyframes(const World::Impl& w) { return w.moving.size() > w.active.size() || !w.keyframes.empty(); }
+bool hasSleepers(const World::Impl& w) { return w.def.sleeping && w.num_sleepers > 0 && hasPairs(w); }
+bool sleeps(const World::Impl& w) { return w.def.sleeping && !w.active.empty(); }
 
 constexpr std::array kSimple = {
     Stage{"broad phase", hasSeveralBodies, stage::findPairsAnew},
@@ -31,6 +31,7 @@ constexpr std::array kSimple = {
 constexpr std::array kStable = {
     Stage{"broad phase", hasSeveralBodies, stage::updatePairs},
     Stage{"collision", hasPairs, stage::detectCollisions},
+    Stage{"wake", hasSleepers, stage::wakeTouched},
     Stage{"constraints", hasPairs, stage::gatherConstraints},
     Stage{"free flight", hasFreeBodies, stage::flyFree},
     Stage{"solver set-up", hasConstraints, stage::setUpSolver},

@@ -16,6 +16,7 @@ void solve(World::Impl& world);              // the sub-steps
 void writeBack(World::Impl& world);          // solver bodies to states
 void followKeyframes(World::Impl& world);    // key-frame bodies reach their pose
 void storeImpulses(World::Impl& world);      // rows to manifolds, for the next step
+void wakeTouched(World::Impl& world);        // islands that something touches wake up
 void putToSleep(World::Impl& world);         // islands at rest fall asleep
 
 }  // namespace pfx::stage

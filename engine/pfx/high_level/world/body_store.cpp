@@ -17,7 +17,8 @@ void requireFinite(const BodyDef& def, const Vec3& v, const char* field) {
 }
 
 void requireNotNegative(const BodyDef& def, float x, const char* field) {
-  if (!(x >= 0.0f) || !std::isfinite(x)) reject(def, std::string(field) + " = " + std::to_string(x) + ", must be >= 0");
+  if (!(x >= 0.0f) || !std::isfinite(x))
+    reject(def, std::string(field) + " = " + std::to_string(x) + ", must be >= 0");
 }
 
 void check(const BodyDef& def) {
@@ -25,7 +26,8 @@ void check(const BodyDef& def) {
   requireFinite(def, def.linear_velocity, "linear velocity");
   requireFinite(def, def.angular_velocity, "angular velocity");
   const float norm = def.pose.orientation.norm();
-  if (!(std::abs(norm - 1.0f) < 1e-3f)) reject(def, "orientation has length " + std::to_string(norm) + ", must be 1");
+  if (!(std::abs(norm - 1.0f) < 1e-3f))
+    reject(def, "orientation has length " + std::to_string(norm) + ", must be 1");
   if (def.shapes.empty()) reject(def, "has no shape");
   if (isDynamic(def.motion_type) && (!(def.mass > 0.0f) || !std::isfinite(def.mass)))
     reject(def, "mass = " + std::to_string(def.mass) + " kg, must be > 0");
@@ -80,7 +82,8 @@ BodyId BodyStore::add(const BodyDef& def) {
   if (def.shapes.size() > 1) collidable.external = shapes[index];
   if (const Error e = collidable.finish(); e != Error::Ok) reject(def, std::string("shape: ") + toString(e));
   const RigidBody body = makeBody(def);
-  if (isDynamic(def.motion_type) && !(body.inertia.determinant() > 0.0f)) reject(def, "inertia is not positive definite");
+  if (isDynamic(def.motion_type) && !(body.inertia.determinant() > 0.0f))
+    reject(def, "inertia is not positive definite");
 
   if (reuse) {
     free_slots.pop_back();

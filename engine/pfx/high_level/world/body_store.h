@@ -16,17 +16,20 @@ struct BodyStore {
   std::vector<RigidBody> bodies;
   std::vector<Collidable> collidables;
   std::vector<Inertia> inertias;
-  std::vector<float> size;           // m, smallest half extent: the length that contact margins are measured by
-  std::vector<float> radius;         // m, about the centre of mass
+  std::vector<float> size;    // m, smallest half extent: the length that contact margins are measured by
+  std::vector<float> radius;  // m, about the centre of mass
   std::vector<std::string> names;
-  std::vector<uint32_t> generations; // odd while the body exists
+  std::vector<uint32_t> generations;  // odd while the body exists
   std::vector<uint32_t> free_slots;
   std::deque<std::vector<Shape>> shapes;  // by body; addresses stay, collidables point here
 
   // Throws std::invalid_argument naming the body and the field.
   BodyId add(const BodyDef& def);
   void remove(uint32_t index);
-  bool isValid(BodyId id) const { return id.index < generations.size() && generations[id.index] == id.generation; }
+  bool isValid(BodyId id) const {
+    return id.index < generations.size() && generations[id.index] == id.generation;
+  }
+  bool exists(uint32_t index) const { return generations[index] % 2 == 1; }
   uint32_t count() const { return static_cast<uint32_t>(states.size() - free_slots.size()); }
 };
 

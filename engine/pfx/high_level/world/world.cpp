@@ -18,8 +18,15 @@ bool World::Impl::solves(const Pair& pair) const {
 void World::Impl::refreshActive() {
   if (!active_changed) return;
   active.clear();
-  for (uint32_t i = 0; i < store.states.size(); ++i)
-    if (isDynamic(store.states[i].motion_type) && !store.states[i].asleep) active.push_back(i);
+  moving.clear();
+  num_sleepers = 0;
+  for (uint32_t i = 0; i < store.states.size(); ++i) {
+    const RigidState& s = store.states[i];
+    num_sleepers += s.asleep;
+    if (!store.exists(i) || !moves(s)) continue;
+    moving.push_back(i);
+    if (isDynamic(s.motion_type)) active.push_back(i);
+  }
   active_changed = false;
 }
 
@@ -47,20 +54,30 @@ World& World::operator=(World&&) noexcept = default;
 
 const WorldDef& World::def() const { return impl_->def; }
 
+const ConvexMesh* World::keep(ConvexMesh mesh) { return &impl_->convex_meshes.emplace_back(std::move(mesh)); }
+LargeMesh* World::keep(LargeMesh mesh) { return &impl_->large_meshes.emplace_back(std::move(mesh)); }
+
 BodyId World::addBody(const BodyDef& def) {
+  const BodyId id = impl_->store.add(def);
   impl_->active_changed = true;
-  return impl_->store.add(def);
+  impl_->changed_bodies.push_back(id.index);
+  return id;
 }
 
 void World::removeBody(BodyId id) {
   if (!isValid(id)) return;
-  std::erase_if(impl_->pairs, [&](const Pair& p) {
-    if (p.body_a != id.index && p.body_b != id.index) return false;
-    impl_->contacts.remove(p.contact_id);
-    return true;
-  });
+  impl_->wake(id.index);
+  impl_->wakeNeighbours(id.index);
+  for (auto* list : {&impl_->pairs, &impl_->sleeping_pairs}) {
+    std::erase_if(*list, [&](const Pair& p) {
+      if (p.body_a != id.index && p.body_b != id.index) return false;
+      impl_->contacts.remove(p.contact_id);
+      return true;
+    });
+  }
   impl_->store.remove(id.index);
   impl_->active_changed = true;
+  impl_->changed_bodies.push_back(id.index);
 }
 
 bool World::isValid(BodyId id) const { return id && impl_->store.isValid(id); }
@@ -84,8 +101,10 @@ std::string_view World::name(uint32_t index) const { return impl_->store.names.a
 
 RigidState& World::state(BodyId id) {
   if (!isValid(id)) throw std::invalid_argument("world: the body does not exist");
-  impl_->store.states[id.index].asleep = false;
+  impl_->wake(id.index);
+  impl_->wakeNeighbours(id.index);
   impl_->active_changed = true;
+  impl_->changed_bodies.push_back(id.index);
   return impl_->store.states[id.index];
 }
 
@@ -96,13 +115,15 @@ RigidBody& World::body(BodyId id) {
 
 void World::moveKeyframe(BodyId id, const Transform& pose, float dt) {
   RigidState& s = state(id);
-  if (s.motion_type != MotionType::Keyframe) throw std::invalid_argument("world: only Keyframe bodies follow a pose");
+  if (s.motion_type != MotionType::Keyframe)
+    throw std::invalid_argument("world: only Keyframe bodies follow a pose");
   impl_->keyframes.push_back({id.index, pose});
   s.linear_velocity = (pose.position - s.position) / dt;
   Quat turn = pose.orientation * s.orientation.conjugate();
   if (turn.w() < 0.0f) turn.coeffs() = -turn.coeffs();
   const float sine = turn.vec().norm();
-  s.angular_velocity = sine == 0.0f ? Vec3(Vec3::Zero()) : Vec3(2.0f * atan2(sine, turn.w()) / (sine * dt) * turn.vec());
+  s.angular_velocity =
+      sine == 0.0f ? Vec3(Vec3::Zero()) : Vec3(2.0f * atan2(sine, turn.w()) / (sine * dt) * turn.vec());
 }
 
 std::span<const Pair> World::contactPairs() const { return impl_->pairs; }

@@ -25,15 +25,15 @@ enum class Pipeline : uint8_t {
 struct WorldDef {
   Vec3 gravity = Vec3(0.0f, -9.8f, 0.0f);  // m/s^2
   Pipeline pipeline = Pipeline::Stable;
-  int substeps = 4;          // solver sub-steps a step, >= 1; error of contacts and joints falls with its square, cost
-                             // of the solver rises in proportion
+  int substeps = 4;  // solver sub-steps a step, >= 1; error of contacts and joints falls with its square,
+                     // cost of the solver rises in proportion
   SimdLevel simd = SimdLevel::Auto;  // widest kernels to use; the result is the same for all
-  int workers = 1;           // threads, the caller included; the result is the same for any number
-  bool sleeping = false;     // islands at rest are put to sleep
-  float sleep_velocity = 0.1f;   // m/s and rad/s
-  uint32_t sleep_steps = 180;    // steps below sleep_velocity before an island sleeps
-  Vec3 center = Vec3::Zero();              // m, of the world box
-  Vec3 extent = Vec3::Constant(500.0f);    // m, half extent of the world box
+  int workers = 1;                   // threads, the caller included; the result is the same for any number
+  bool sleeping = false;             // islands at rest are put to sleep
+  float sleep_velocity = 0.1f;       // m/s and rad/s
+  uint32_t sleep_steps = 180;        // steps below sleep_velocity before an island sleeps
+  Vec3 center = Vec3::Zero();        // m, of the world box
+  Vec3 extent = Vec3::Constant(500.0f);  // m, half extent of the world box
 };
 
 struct BodyDef {
@@ -42,15 +42,15 @@ struct BodyDef {
   Vec3 linear_velocity = Vec3::Zero();   // m/s
   Vec3 angular_velocity = Vec3::Zero();  // rad/s, world axes
   MotionType motion_type = MotionType::Active;
-  std::vector<Shape> shapes = {};        // at least one; offsets are relative to the centre of mass
-  float mass = 1.0f;                     // kg
+  std::vector<Shape> shapes = {};  // at least one; offsets are relative to the centre of mass
+  float mass = 1.0f;               // kg
   // kg m^2, body axes. Zero: computed from the shapes with uniform density scaled to `mass`.
   Mat3 inertia = Mat3::Zero();
   float restitution = 0.2f;
   float friction = 0.6f;
-  float linear_damping = 0.0f;           // 1/s
-  float angular_damping = 0.0f;          // 1/s
-  float rolling_resistance = 0.0f;       // m
+  float linear_damping = 0.0f;      // 1/s
+  float angular_damping = 0.0f;     // 1/s
+  float rolling_resistance = 0.0f;  // m
   float gravity_scale = 1.0f;
   uint32_t filter_self = 0xffffffffu;
   uint32_t filter_target = 0xffffffffu;
@@ -74,7 +74,7 @@ struct IslandView {
   std::span<const uint32_t> bodies;    // body indices, ascending
   std::span<const uint32_t> contacts;  // indices into contactPairs()
   bool asleep;
-  float sleep_timer;                   // s below the sleep velocity
+  float sleep_timer;  // s below the sleep velocity
 };
 
 struct WorldCounts {
@@ -90,8 +90,12 @@ class World {
 
   const WorldDef& def() const;
 
-  // Adds a body. Throws std::invalid_argument, naming the body and the field, for input that is not finite, has no
-  // shape, or a mass that is not positive.
+  // Takes a mesh into the world's keeping, so that shapes may point at it for as long as the world lives.
+  const ConvexMesh* keep(ConvexMesh mesh);
+  LargeMesh* keep(LargeMesh mesh);
+
+  // Adds a body. Throws std::invalid_argument, naming the body and the field, for input that is not finite,
+  // has no shape, or a mass that is not positive.
   BodyId addBody(const BodyDef& def);
   void removeBody(BodyId id);
   bool isValid(BodyId id) const;
@@ -122,9 +126,9 @@ class World {
   IslandView island(uint32_t index) const;
 
   WorldCounts counts() const;
-  std::span<const StageTime> stageTimes() const;             // of the last step, in order
-  std::vector<std::string_view> stages() const;              // that this world's content makes it run, in order
-  uint64_t stateHash() const;                                // of pose and velocity of all bodies, bit-exact
+  std::span<const StageTime> stageTimes() const;  // of the last step, in order
+  std::vector<std::string_view> stages() const;   // that this world's content makes it run, in order
+  uint64_t stateHash() const;                     // of pose and velocity of all bodies, bit-exact
 
   struct Impl;  // the stages of high_level/pipeline work on it
 

@@ -1,11 +1,16 @@
 // What a world holds: the bodies, and the buffers that the stages hand to each other.
 #pragma once
 
+#include <deque>
+
+#include "pfx/base_level/shape/convex_mesh.h"
+#include "pfx/base_level/shape/large_mesh.h"
 #include "pfx/high_level/pipeline/stage.h"
 #include "pfx/high_level/world/body_store.h"
 #include "pfx/high_level/world/world.h"
 #include "pfx/low_level/broadphase/decompose.h"
 #include "pfx/low_level/broadphase/sweep.h"
+#include "pfx/low_level/broadphase/tree_broadphase.h"
 #include "pfx/low_level/collision/contact_store.h"
 #include "pfx/low_level/collision/detect.h"
 #include "pfx/low_level/island/islands.h"
@@ -25,20 +30,31 @@ struct World::Impl {
   WorldDef def;
   TaskManager tasks;
   BodyStore store;
+  std::deque<ConvexMesh> convex_meshes;  // kept for shapes that point at them
+  std::deque<LargeMesh> large_meshes;
   float dt = 0.0f;  // s, of the step under way
   uint64_t step_count = 0;
 
   std::vector<uint32_t> active;  // awake dynamic bodies, ascending
-  bool active_changed = true;    // a body was added, removed, or changed its type
+  std::vector<uint32_t> moving;  // these and the scripted bodies that move, ascending
+  uint32_t num_sleepers = 0;
+  bool active_changed = true;  // a body was added, removed, changed its type, slept or woke
 
   std::vector<KeyframeTarget> keyframes;
 
-  // Broad phase
+  // Broad phase: the sweep for worlds that remember nothing, the trees for all others
   std::vector<BroadphaseProxy> proxies;
   std::vector<ContactReach> reach;  // by body
+  std::vector<uint32_t> all_bodies;
+  std::vector<uint32_t> changed_bodies;  // added, removed or moved from outside since the last step
   SweepBroadphase sweep;
-  std::vector<Pair> pairs, next_pairs;  // sorted by key
-  PairChanges changes;
+  TreeBroadphase tree;
+  std::vector<Pair> pairs, next_pairs;  // with a body that moves; sorted by key
+
+  // Sleep
+  std::vector<uint32_t> next_sleeper;  // by body: the next one of its sleeping island, in a ring
+  std::vector<Pair> sleeping_pairs;    // set aside; sorted by key
+  bool has_woken = false;              // a body woke whose pairs are still set aside
 
   // Collision
   ContactStore contacts;
@@ -64,6 +80,9 @@ struct World::Impl {
   bool solves(const Pair& pair) const;
   void refreshActive();
   void linkIslands();
+  void wake(uint32_t body);            // and its whole island
+  void wakeNeighbours(uint32_t body);  // everything that it touches
+  void revivePairs();
 };
 
 inline constexpr uint32_t kNoSolverBody = 0xffffffffu;

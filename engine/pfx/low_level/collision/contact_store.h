@@ -1,9 +1,9 @@
-// What the collision stage remembers of each pair from step to step: manifolds, and how the pair stood when they were
-// found.
+// What the collision stage remembers of each pair from step to step: manifolds, and how the pair stood when
+// they were found.
 //
-// A contact is named by Pair::contact_id and keeps its place while the pair lives. Manifolds lie in one pool, in blocks
-// of 1, 2, 4, ... that a contact owns; a pair that never touched owns none. Growing the pool moves manifolds, so blocks
-// are only changed in the serial parts of the stage.
+// A contact is named by Pair::contact_id and keeps its place while the pair lives. Manifolds lie in one pool,
+// in blocks of 1, 2, 4, ... that a contact owns; a pair that never touched owns none. Growing the pool moves
+// manifolds, so blocks are only changed in the serial parts of the stage.
 #pragma once
 
 #include <cstdint>
@@ -16,20 +16,20 @@
 namespace pfx {
 
 struct Contact {
-  uint32_t first = 0;         // manifold in the pool
-  uint16_t count = 0;         // manifolds in use
-  uint16_t capacity_log2 = 0; // of the block, plus one; 0: no block
-  bool found = false;         // the narrow phase has run at least once
+  uint32_t first = 0;          // manifold in the pool
+  uint16_t count = 0;          // manifolds in use
+  uint16_t capacity_log2 = 0;  // of the block, plus one; 0: no block
+  bool found = false;          // the narrow phase has run at least once
   bool reported_touching = false;
-  PairCache cache;            // separating axis and feature hints of the narrow phase
-  Transform relative;         // B seen from A when the manifolds were found
+  PairCache cache;     // separating axis and feature hints of the narrow phase
+  Transform relative;  // B seen from A when the manifolds were found
 
   uint32_t capacity() const { return capacity_log2 == 0 ? 0u : 1u << (capacity_log2 - 1); }
 };
 
 class ContactStore {
  public:
-  uint32_t add();             // a contact without manifolds; its id
+  uint32_t add();  // a contact without manifolds; its id
   void remove(uint32_t id);
   void clear();
 
@@ -42,10 +42,12 @@ class ContactStore {
     return {pool_.data() + contacts_[id].first, contacts_[id].count};
   }
 
-  // Replaces the manifolds of a contact. Takes a larger block when the count asks for it, which may move the pool.
+  // Replaces the manifolds of a contact. Takes a larger block when the count asks for it, which may move the
+  // pool.
   void assign(uint32_t id, std::span<const ContactManifold> manifolds);
 
-  // The same where the block is large enough already: touches nothing but this contact, and may run in parallel.
+  // The same where the block is large enough already: touches nothing but this contact, and may run in
+  // parallel.
   bool assignInPlace(uint32_t id, std::span<const ContactManifold> manifolds);
 
  private:

@@ -9,27 +9,52 @@ namespace {
 
 constexpr uint32_t kPairGrain = 64;
 
-bool isAwakeDynamic(const RigidState& s) { return isDynamic(s.motion_type) && !s.asleep; }
+bool isMesh(const Shape& shape) { return shape.type() == ShapeType::LargeMesh; }
 
-// Manifolds of all shapes of A against all shapes of B.
-void collideAll(const Collidable& a, const Transform& pose_a, const Collidable& b, const Transform& pose_b, float margin,
-                PairCache& cache, std::vector<ContactManifold>& out) {
-  const auto shapes_a = a.shapes(), shapes_b = b.shapes();
-  const bool single = shapes_a.size() == 1 && shapes_b.size() == 1;
+float radiusOf(const Collidable& c) { return (c.center.cwiseAbs() + c.half_extent).norm(); }
+
+// Two bodies as the narrow phase sees them.
+struct BodyPair {
+  const Collidable &a, &b;
+  const Transform &pose_a, &pose_b;
+  float margin;
+};
+
+// Appends the manifolds of one shape of A and one of B.
+void collideOne(const CollideInput& input, MeshContactScratch& mesh_scratch,
+                std::vector<ContactManifold>& out) {
+  if (isMesh(input.shape_a) || isMesh(input.shape_b)) {
+    collideMesh(input, mesh_scratch, out);
+    return;
+  }
+  ContactManifold m;
+  if (collideShapes(input, m) > 0) out.push_back(m);
+}
+
+// Manifolds of compounds: all shapes of A against all shapes of B whose bounds meet.
+void collideParts(const BodyPair& p, MeshContactScratch& mesh_scratch, std::vector<ContactManifold>& out) {
+  const auto shapes_a = p.a.shapes(), shapes_b = p.b.shapes();
   for (uint32_t i = 0; i < shapes_a.size(); ++i) {
-    const Aabb box_a = shapeAabb(shapes_a[i].geometry, pose_a * shapes_a[i].offset).grown(margin);
+    const Aabb box_a = shapeAabb(shapes_a[i].geometry, p.pose_a * shapes_a[i].offset).grown(p.margin);
     for (uint32_t j = 0; j < shapes_b.size(); ++j) {
-      if (!single && !box_a.overlaps(shapeAabb(shapes_b[j].geometry, pose_b * shapes_b[j].offset))) continue;
-      ContactManifold m;
-      collideShapes({shapes_a[i], pose_a, shapes_b[j], pose_b, margin, single ? &cache : nullptr}, m);
-      if (m.num_points == 0) continue;
+      if (!box_a.overlaps(shapeAabb(shapes_b[j].geometry, p.pose_b * shapes_b[j].offset))) continue;
+      const size_t first = out.size();
+      collideOne({shapes_a[i], p.pose_a, shapes_b[j], p.pose_b, p.margin, nullptr}, mesh_scratch, out);
       // Features of different parts must not be mistaken for each other.
-      if (!single)
+      for (ContactManifold& m : std::span(out).subspan(first))
         for (int k = 0; k < m.num_points; ++k) m.points[k].feature ^= (i * 64 + j + 1) * 0x9e3779b1u;
-      m.local_normal = pose_a.orientation.conjugate() * m.normal;
-      out.push_back(m);
     }
   }
+}
+
+void collideBodies(const BodyPair& p, PairCache& cache, MeshContactScratch& mesh_scratch,
+                   std::vector<ContactManifold>& out) {
+  const auto shapes_a = p.a.shapes(), shapes_b = p.b.shapes();
+  if (shapes_a.size() == 1 && shapes_b.size() == 1)
+    collideOne({shapes_a[0], p.pose_a, shapes_b[0], p.pose_b, p.margin, &cache}, mesh_scratch, out);
+  else
+    collideParts(p, mesh_scratch, out);
+  for (ContactManifold& m : out) m.local_normal = p.pose_a.orientation.conjugate() * m.normal;
 }
 
 void inheritImpulses(ContactPoint& point, std::span<const ContactManifold> old) {
@@ -49,23 +74,23 @@ void CollisionDetector::detectPair(const DetectInput& input, uint32_t index, Con
                                    Scratch& scratch) const {
   const Pair& pair = input.pairs[index];
   const RigidState &a = input.states[pair.body_a], &b = input.states[pair.body_b];
-  if (!isAwakeDynamic(a) && !isAwakeDynamic(b)) return;
+  if (!moves(a) && !moves(b)) return;
 
   const ContactReach &ra = input.reach[pair.body_a], &rb = input.reach[pair.body_b];
   const float resting = std::min(ra.resting, rb.resting);
   const Transform pose_a = a.pose(), pose_b = b.pose(), b_in_a = relative(pose_a, pose_b);
   Contact& contact = contacts[pair.contact_id];
-  const Collidable& shapes_b = input.collidables[pair.body_b];
-  const float radius_b = (shapes_b.center.cwiseAbs() + shapes_b.half_extent).norm();
-  if (contact.count > 0 && hardlyMoved(contact, b_in_a, radius_b, 0.5f * resting)) {
+  const Collidable &shapes_a = input.collidables[pair.body_a], &shapes_b = input.collidables[pair.body_b];
+  if (contact.count > 0 &&
+      hardlyMoved(contact, b_in_a, {radiusOf(shapes_a), radiusOf(shapes_b)}, 0.5f * resting)) {
     measureAgain(contacts.manifolds(pair.contact_id), pose_a, pose_b);
     ++scratch.recycled;
     return;
   }
 
   scratch.found.clear();
-  collideAll(input.collidables[pair.body_a], pose_a, input.collidables[pair.body_b], pose_b,
-             resting + ra.travel + rb.travel, contact.cache, scratch.found);
+  collideBodies({shapes_a, shapes_b, pose_a, pose_b, resting + ra.travel + rb.travel}, contact.cache,
+                scratch.mesh, scratch.found);
   contact.relative = b_in_a;
   for (ContactManifold& m : scratch.found)
     for (int i = 0; i < m.num_points; ++i) inheritImpulses(m.points[i], contacts.manifolds(pair.contact_id));
@@ -90,7 +115,8 @@ void CollisionDetector::detect(const DetectInput& input, ContactStore& contacts,
 void CollisionDetector::assignPending(const DetectInput& input, ContactStore& contacts) {
   order_.clear();
   for (uint32_t w = 0; w < scratch_.size(); ++w)
-    for (uint32_t k = 0; k < scratch_[w].pending.size(); ++k) order_.push_back({scratch_[w].pending[k].pair, w});
+    for (uint32_t k = 0; k < scratch_[w].pending.size(); ++k)
+      order_.push_back({scratch_[w].pending[k].pair, w});
   std::sort(order_.begin(), order_.end());
   for (const auto& [pair, worker] : order_) {
     const Scratch& s = scratch_[worker];

@@ -1,12 +1,14 @@
 // Collision detection of all pairs: manifolds with the impulses that they inherit.
 //
-// A pair that has hardly moved since its manifold was found keeps it and only has its distances measured again. This
-// loses nothing: a point left out was farther away than the margin, and the motion allowed is half of that.
+// A pair that has hardly moved since its manifold was found keeps it and only has its distances measured
+// again. This loses nothing: a point left out was farther away than the margin, and the motion allowed is
+// half of that.
 #pragma once
 
 #include <span>
 #include <vector>
 
+#include "pfx/base_level/collision/mesh_contact.h"
 #include "pfx/base_level/collision/pair.h"
 #include "pfx/base_level/rigid_body/rigid_state.h"
 #include "pfx/base_level/shape/collidable.h"
@@ -41,6 +43,7 @@ class CollisionDetector {
     uint32_t pair, first, count;
   };
   struct Scratch {
+    MeshContactScratch mesh;
     std::vector<ContactManifold> found;    // of the pair at hand
     std::vector<ContactManifold> storage;  // of pending pairs
     std::vector<Pending> pending;
@@ -50,7 +53,7 @@ class CollisionDetector {
   void detectPair(const DetectInput& input, uint32_t pair, ContactStore& contacts, Scratch& scratch) const;
   void assignPending(const DetectInput& input, ContactStore& contacts);
 
-  std::vector<Scratch> scratch_;  // by worker
+  std::vector<Scratch> scratch_;                      // by worker
   std::vector<std::pair<uint32_t, uint32_t>> order_;  // (pair, worker) of what is pending
   uint32_t num_recycled_ = 0;
 };

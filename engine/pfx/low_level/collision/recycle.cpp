@@ -1,12 +1,16 @@
 #include "pfx/low_level/collision/recycle.h"
 
+#include <algorithm>
+
 namespace pfx {
 
-bool hardlyMoved(const Contact& contact, const Transform& b_in_a, float radius_b, float tolerance) {
-  const Quat turn = contact.relative.orientation.conjugate() * b_in_a.orientation;
-  // A turn by the quaternion (w, u) moves a point at distance r by at most 2 |u| r.
-  const float shift = (b_in_a.position - contact.relative.position).norm();
-  return shift + 2.0f * turn.vec().norm() * radius_b <= tolerance;
+bool hardlyMoved(const Contact& contact, const Transform& b_in_a, const PairRadii& radii, float tolerance) {
+  // The motion since then is p -> turn (p - old) + now. A turn by the quaternion (w, u) moves a point at
+  // distance r from its centre by at most 2 |u| r; as centre serves the origin of the smaller body.
+  const Quat turn = b_in_a.orientation * contact.relative.orientation.conjugate();
+  const Vec3 &old = contact.relative.position, &now = b_in_a.position;
+  const float shift = radii.b <= radii.a ? (now - old).norm() : (now - turn * old).norm();
+  return shift + 2.0f * turn.vec().norm() * std::min(radii.a, radii.b) <= tolerance;
 }
 
 void measureAgain(std::span<ContactManifold> manifolds, const Transform& pose_a, const Transform& pose_b) {

@@ -7,9 +7,14 @@
 
 namespace pfx {
 
-// True when no point of B, which lies within radius_b of its origin, has moved by more than `tolerance` (m) in the frame
-// of A since the manifolds were found.
-bool hardlyMoved(const Contact& contact, const Transform& b_in_a, float radius_b, float tolerance);
+// Radii (m) of balls around the origins of the two bodies that hold their shapes.
+struct PairRadii {
+  float a, b;
+};
+
+// True when no point that both bodies can reach has moved by more than `tolerance` (m) with B in the frame of
+// A since the manifolds were found.
+bool hardlyMoved(const Contact& contact, const Transform& b_in_a, const PairRadii& radii, float tolerance);
 
 // Brings normals and distances up to date with the poses.
 void measureAgain(std::span<ContactManifold> manifolds, const Transform& pose_a, const Transform& pose_b);

@@ -105,9 +105,7 @@ TEST_P(AllPairs, ReportTheSignedDistanceOfTheOracle) {
     const int overlap = expected < 0.0f;
     below[overlap] = std::max(below[overlap], expected - found);
     above[overlap] = std::max(above[overlap], found - attained);
-    if (std::getenv("PFX_PRINT") && (expected - found > 2e-5f || found - attained > 2e-5f)) std::printf("  %d: exp %g found %g attained %g\n", i, double(expected), double(found), double(attained));
   }
-  if (std::getenv("PFX_PRINT")) std::printf("%s %s: gap -%g +%g overlap -%g +%g\n", kNames[int(type_a)], kNames[int(type_b)], double(below[0]), double(above[0]), double(below[1]), double(above[1]));
   EXPECT_LT(std::max(below[0], above[0]), 2e-5f);
   EXPECT_LT(std::max(below[1], above[1]), 2e-5f);
 }

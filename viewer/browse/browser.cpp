@@ -1,0 +1,197 @@
+#include "viewer/browse/browser.h"
+
+#include <algorithm>
+#include <chrono>
+#include <cstdlib>
+#include <thread>
+
+#include "viewer/image/png.h"
+#include "viewer/input_error.h"
+
+namespace viewer {
+
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+constexpr double kFrameTime = 1.0 / 60.0;  // s, of a picture; faster is a waste of the processor
+
+std::unique_ptr<Window> open(const BrowseSettings& settings, const std::string& target) {
+  try {
+    return openWindow({.width = settings.width, .height = settings.height, .title = "Vitrine", .visible = true});
+  } catch (const ContextError& error) {
+    throw InputError(std::string("there is no display to open a window on (") + error.what() +
+                     "); draw without one: vitrine render " + target + " --out pictures");
+  }
+}
+
+// Where there is a graphics processor four samples a pixel cost nothing.
+Quality qualityFor(GlContext& context) {
+  const std::string rasterizer = Renderer::rasterizer(context);
+  const bool software = rasterizer.find("llvmpipe") != std::string::npos || rasterizer.find("softpipe") != std::string::npos;
+  return software ? Quality::Window : Quality::Ci;
+}
+
+}  // namespace
+
+Browser::Browser(const BrowseOptions& options)
+    : options_(options), scenes_(allScenes()), settings_(readSettings(settingsFile())) {
+  if (scenes_.empty()) throw InputError("there are no scenes to show");
+  const auto known = [&](const std::string& target) {
+    return std::any_of(scenes_.begin(), scenes_.end(), [&](const SceneSpec& s) { return s.target() == target; });
+  };
+  std::string target = known(settings_.target) ? settings_.target : scenes_.front().target();
+  if (!options.target.empty()) target = findTarget(scenes_, options.target).front().target();
+  window_ = open(settings_, target);
+  ImGui::GetIO().IniFilename = nullptr;
+  setKeyMap(ImGui::GetIO());
+  setUiStyle(std::max(1.0f, window_->poll().scale));
+  renderer_ = std::make_unique<Renderer>(
+      *window_, RenderParams{.quality = qualityFor(*window_), .wire = false, .shader_dir = options.shader_dir});
+  session_.speed = settings_.speed;
+  load(target);
+}
+
+void Browser::load(const std::string& target) {
+  const auto spec = std::find_if(scenes_.begin(), scenes_.end(), [&](const SceneSpec& s) { return s.target() == target; });
+  if (spec == scenes_.end()) return;
+  try {
+    session_.settings.substeps.reset();
+    session_.load(*spec);
+  } catch (const std::exception& error) {
+    say(target + ": " + error.what());
+    return;
+  }
+  settings_.target = target;
+  camera_ = {.pose = spec->camera, .orthographic = false};
+  selected_ = 0;
+  follow_ = false;
+  view_ = std::make_unique<WorldView>(list_);
+  session_.paused = false;
+}
+
+void Browser::restart() {
+  try {
+    session_.restart();
+  } catch (const std::exception& error) {
+    say(error.what());
+  }
+  view_ = std::make_unique<WorldView>(list_);
+}
+
+std::string Browser::title() const {
+  return session_.spec().target() + " - step " + std::to_string(session_.step()) + (session_.paused ? " - paused" : "") +
+         " - Vitrine";
+}
+
+void Browser::record() {
+  list_.begin();
+  if (follow_ && pickKind(selected_) == PickKind::Body && pickIndex(selected_) < session_.world().states().size())
+    camera_.pose.target = session_.world().states()[pickIndex(selected_)].position;
+  list_.camera = camera_.camera();
+  view_->add(session_.world(), settings_.overlays);
+  if (const auto& grab = session_.grab; grab && session_.world().isValid(grab->body)) {
+    const pfx::Vec3 held = session_.world().states()[grab->body.index].pose().apply(grab->local);
+    list_.add(Line{held, grab->target, 0xffd9480fu, 2.5f, 0});
+    list_.add(Point{held, 0xffd9480fu, 9.0f, 0});
+  }
+  list_.scale_bar = !settings_.show_ui;
+  list_.end();
+}
+
+FrameInput Browser::frameInput() const {
+  return {.width = width_, .height = height_, .ui = nullptr, .selected = selected_, .label_scale = 1.0f};
+}
+
+void Browser::layOutPanels() {
+  const float w = float(width_), h = float(height_), unit = ImGui::GetFontSize(), gap = 0.6f * unit;
+  if (settings_.show_ui) {
+    const float bar = 2.7f * unit, left = 15.0f * unit, right = 21.0f * unit, drawer = settings_.show_costs ? 11.0f * unit : 0.0f;
+    const float sides = h - bar - 3.0f * gap - (drawer > 0.0f ? drawer + gap : 0.0f);
+    if (const auto target = sceneListPanel({gap, gap, left, sides}, scenes_, session_.spec().target(), list_state_))
+      load(*target);
+    const SideEdit side = sidePanel({w - right - gap, gap, right, sides}, session_,
+                                    {&settings_.overlays, &session_.settings, selected_});
+    if (side.restart) restart();
+    if (side.selected) selected_ = *side.selected;
+    const TransportEdit transport = transportPanel({gap, h - bar - gap, w - 2.0f * gap, bar}, session_);
+    if (transport.command) execute(*transport.command);
+    if (transport.speed) session_.speed = *transport.speed;
+    if (transport.seek) {
+      session_.paused = true;
+      session_.seek(*transport.seek);
+    }
+    if (drawer > 0.0f) costsPanel({gap, h - bar - drawer - 2.0f * gap, w - 2.0f * gap, drawer}, session_);
+  }
+  if (help_) helpPanel({0.0f, 0.0f, w, h}, help_);
+  if (message_left_ > 0.0f) messagePanel({0.0f, 0.0f, w, h - 4.0f * unit}, message_);
+}
+
+void Browser::saveScreenshot() {
+  const auto path = options_.pictures / (session_.spec().sample + "_" + session_.spec().name + "_" +
+                                         std::to_string(session_.step()) + ".png");
+  try {
+    writePng(path, renderer_->readBack());
+    say("saved " + path.string());
+  } catch (const std::exception& error) {
+    say(error.what());
+  }
+}
+
+void Browser::drawFrame(const UiInput::Frame& input, float dt) {
+  feed(ImGui::GetIO(), input, {width_, height_, std::max(dt, 1e-4f)});
+  ImGui::NewFrame();
+  layOutPanels();
+  ImGui::Render();
+  handleKeys(input, dt);
+  handleMouse(input);
+  session_.advance(dt);
+  record();
+  FrameInput frame = frameInput();
+  const bool without_ui = screenshot_;
+  if (!without_ui) frame.ui = ImGui::GetDrawData();
+  stats_ = renderer_->draw(frame, list_);
+  if (without_ui) saveScreenshot();
+  screenshot_ = false;
+  renderer_->blit(width_, height_);
+  window_->present();
+}
+
+int Browser::run() {
+  auto last = Clock::now();
+  std::string shown_title;
+  int idle = 0;  // pictures since something changed
+  for (uint64_t frames = 0; !window_->shouldClose() && !quit_;) {
+    const WindowInput input = window_->poll();
+    const bool resized = input.width != width_ || input.height != height_;
+    const bool moved = input.mouse_x != mouse_x_ || input.mouse_y != mouse_y_;
+    input_.add(input);
+    width_ = std::clamp(input.width, 1, 8192);
+    height_ = std::clamp(input.height, 1, 8192);
+    const bool busy = !session_.paused || resized || moved || input_.waiting() || !input.characters.empty() ||
+                      input.wheel_y != 0.0f || drag_ != DragMode::None || message_left_ > 0.0f || !input.keys.empty();
+    idle = busy ? 0 : idle + 1;
+    const auto now = Clock::now();
+    const float dt = float(std::min(std::chrono::duration<double>(now - last).count(), 0.25));
+    last = now;
+    // A picture that would be the last one again is not drawn; two more settle the user interface.
+    if (idle <= 3 || options_.frames > 0) {
+      const UiInput::Frame& frame = input_.next();
+      drawFrame(frame, dt);
+      input_.endFrame();
+      message_left_ -= dt;
+      if (++frames == options_.frames) break;
+    }
+    if (title() != shown_title) window_->setTitle(shown_title = title());
+    std::this_thread::sleep_until(now + std::chrono::duration<double>(kFrameTime));
+    settings_.width = width_;
+    settings_.height = height_;
+  }
+  settings_.speed = session_.speed;
+  writeSettings(settingsFile(), settings_);
+  return 0;
+}
+
+int browse(const BrowseOptions& options) { return Browser(options).run(); }
+
+}  // namespace viewer

@@ -1,0 +1,77 @@
+// What the stages of a step cost: a table with now, mean and most, and a stacked plot over the last steps.
+#include <algorithm>
+#include <numeric>
+
+#include "viewer/panels/window.h"
+
+namespace viewer {
+
+namespace {
+
+ImU32 stageColor(size_t index) {
+  return ImGui::ColorConvertFloat4ToU32(ImVec4(ImColor::HSV(float(index) * 0.618034f - float(int(float(index) * 0.618034f)), 0.5f, 0.85f)));
+}
+
+// Bars of the steps, newest at the right, the stages on top of one another.
+void stackedPlot(const std::vector<StageCost>& costs, const std::vector<float>& totals, const ImVec2& size) {
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  ImGui::Dummy(size);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddRectFilled(at, ImVec2(at.x + size.x, at.y + size.y), ImGui::GetColorU32(ImGuiCol_FrameBg), 4.0f);
+  const float most = totals.empty() ? 1.0f : std::max(*std::max_element(totals.begin(), totals.end()), 1e-4f);
+  const float bar = size.x / float(Session::kRecent);
+  for (size_t step = 0; step < totals.size(); ++step) {
+    const float x = at.x + size.x - bar * float(totals.size() - step);
+    float y = at.y + size.y;
+    for (size_t i = 0; i < costs.size(); ++i) {
+      // A stage that came late has fewer values; all end at the newest step.
+      const size_t missing = totals.size() - std::min(totals.size(), costs[i].recent.size());
+      if (step < missing) continue;
+      const float height = costs[i].recent[step - missing] / most * (size.y - 4.0f);
+      draw.AddRectFilled(ImVec2(x, y - height), ImVec2(x + std::max(bar - 0.3f, 1.0f), y), stageColor(i));
+      y -= height;
+    }
+  }
+  char text[32];
+  std::snprintf(text, sizeof text, "%.2f ms", double(most));
+  draw.AddText(ImVec2(at.x + 5.0f, at.y + 3.0f), ImGui::GetColorU32(ImGuiCol_Text), text);
+}
+
+}  // namespace
+
+void costsPanel(const PanelArea& area, const Session& session) {
+  const PanelWindow window("Costs", area);
+  if (session.totals().empty()) {
+    ImGui::TextDisabled("no step was made yet");
+    return;
+  }
+  const float table_width = std::min(360.0f, 0.5f * area.width);
+  ImGui::BeginChild("table", ImVec2(table_width, 0.0f));
+  if (ImGui::BeginTable("costs", 4, ImGuiTableFlags_RowBg)) {
+    for (const char* column : {"stage", "now ms", "mean", "most"}) ImGui::TableSetupColumn(column);
+    ImGui::TableHeadersRow();
+    const auto line = [](const char* stage, const std::vector<float>& v, ImU32 color) {
+      ImGui::TableNextRow();
+      ImGui::TableNextColumn();
+      ImGui::PushStyleColor(ImGuiCol_Text, color);
+      ImGui::TextUnformatted("# ");
+      ImGui::PopStyleColor();
+      ImGui::SameLine(0.0f, 0.0f);
+      ImGui::TextUnformatted(stage);
+      const float mean = std::accumulate(v.begin(), v.end(), 0.0f) / float(v.size());
+      for (const float value : {v.back(), mean, *std::max_element(v.begin(), v.end())}) {
+        ImGui::TableNextColumn();
+        ImGui::Text("%.3f", double(value));
+      }
+    };
+    line("a step", session.totals(), ImGui::GetColorU32(ImGuiCol_TextDisabled));
+    for (size_t i = 0; i < session.costs().size(); ++i)
+      line(session.costs()[i].name.c_str(), session.costs()[i].recent, stageColor(i));
+    ImGui::EndTable();
+  }
+  ImGui::EndChild();
+  ImGui::SameLine();
+  stackedPlot(session.costs(), session.totals(), ImGui::GetContentRegionAvail());
+}
+
+}  // namespace viewer
