@@ -83,7 +83,8 @@ TEST_F(SettingsFile, WhatWasWrittenIsReadBack) {
 
 TEST_F(SettingsFile, DamagedOrStrangeSettingsGiveDefaults) {
   EXPECT_EQ(readSettings(folder / "missing.json"), BrowseSettings{});
-  for (const char* text : {"", "{", "[]", R"({"width": "wide", "speed": -3, "overlays": "nonsense"})", R"({"target": 7})"}) {
+  for (const char* text :
+       {"", "{", "[]", R"({"width": "wide", "speed": -3, "overlays": "nonsense"})", R"({"target": 7})"}) {
     writeText(folder / "bad.json", text);
     EXPECT_EQ(readSettings(folder / "bad.json"), BrowseSettings{}) << text;
   }

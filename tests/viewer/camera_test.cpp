@@ -70,7 +70,8 @@ TEST(CameraControl, FramingShowsAllOfABox) {
   const pfx::Aabb box{Vec3(-3, 0, 4), Vec3(5, 2, 9)};
   control.frame(box);
   for (int i = 0; i < 8; ++i) {
-    const Vec3 corner(i & 1 ? box.max.x() : box.min.x(), i & 2 ? box.max.y() : box.min.y(), i & 4 ? box.max.z() : box.min.z());
+    const Vec3 corner(i & 1 ? box.max.x() : box.min.x(), i & 2 ? box.max.y() : box.min.y(),
+                      i & 4 ? box.max.z() : box.min.z());
     const Vec3 ndc = project(control.camera(), corner, 1.0f);
     EXPECT_LT(ndc.cwiseAbs().maxCoeff(), 1.0f);
   }

@@ -76,7 +76,8 @@ TEST(DrawList, UnchangedInstancesKeepTheirRevisionAndAMovedOneTouchesOnlyItsBloc
   r.frame(bodies);
   const std::vector<uint64_t>& second = r.list.batches().at(kUnitBox).block_revisions;
   ASSERT_EQ(second.size(), first.size());
-  for (size_t b = 0; b < first.size(); ++b) EXPECT_EQ(second[b] != first[b], b == 200 / Batch::kBlock) << "block " << b;
+  for (size_t b = 0; b < first.size(); ++b)
+    EXPECT_EQ(second[b] != first[b], b == 200 / Batch::kBlock) << "block " << b;
 }
 
 TEST(DrawList, BodiesThatAreNotRecordedAgainDisappear) {
@@ -102,11 +103,21 @@ TEST(DrawList, EqualContentIsEqualAndHashesAlikeWhateverWasShownBefore) {
 TEST(DrawList, EveryKindOfItemChangesComparisonAndHash) {
   const auto changes = {
       +[](DrawList& l) { l.add(kUnitBox, Instance{}); },
-      +[](DrawList& l) { l.add(Line{Vec3::Zero(), Vec3::UnitX(), 0xff000000u}); },
-      +[](DrawList& l) { l.add(Arrow{Vec3::Zero(), Vec3::UnitX(), 0xff000000u}); },
-      +[](DrawList& l) { l.add(Point{Vec3::Zero(), 0xff000000u}); },
-      +[](DrawList& l) { l.add(Label{Vec3::Zero(), "text"}); },
-      +[](DrawList& l) { l.add(LegendEntry{0xff000000u, "text"}); },
+      +[](DrawList& l) {
+        l.add(Line{Vec3::Zero(), Vec3::UnitX(), 0xff000000u});
+      },
+      +[](DrawList& l) {
+        l.add(Arrow{Vec3::Zero(), Vec3::UnitX(), 0xff000000u});
+      },
+      +[](DrawList& l) {
+        l.add(Point{Vec3::Zero(), 0xff000000u});
+      },
+      +[](DrawList& l) {
+        l.add(Label{Vec3::Zero(), "text"});
+      },
+      +[](DrawList& l) {
+        l.add(LegendEntry{0xff000000u, "text"});
+      },
       +[](DrawList& l) { l.camera.eye.x() += 1.0f; },
       +[](DrawList& l) { l.sun.shadows = false; },
       +[](DrawList& l) { l.scale_bar = true; },
@@ -134,7 +145,8 @@ TEST(DrawList, TenThousandUnchangedBodiesAreRecordedInUnderAMillisecond) {
   for (int i = 0; i < 20; ++i) {
     const auto start = std::chrono::steady_clock::now();
     r.frame(bodies);
-    best = std::min(best, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
+    best = std::min(
+        best, std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count());
   }
 #ifdef NDEBUG
   EXPECT_LT(best, 1.0);
@@ -170,14 +182,16 @@ TEST(DrawList, AnArcIsAPolylineOnItsCircleFromStartToEnd) {
   EXPECT_LT((lines.back().to - Vec3(1, 0, -2)).norm(), 1e-6f);
   for (size_t i = 0; i < lines.size(); ++i) {
     EXPECT_NEAR((lines[i].to - Vec3(1, 0, 0)).norm(), 2.0f, 1e-6f);
-    if (i > 0) EXPECT_EQ(lines[i].from, lines[i - 1].to);
+    EXPECT_EQ(lines[i].from, i > 0 ? lines[i - 1].to : lines[i].from);
   }
 }
 
 TEST(DrawList, AnArcWithoutFiniteAnglesDrawsNothing) {
   DrawList list;
   list.begin();
-  addArc(list, {Vec3::Zero(), Vec3::UnitY(), Vec3::UnitX(), 1.0f, 0.0f, std::numeric_limits<float>::infinity()}, {});
+  addArc(list,
+         {Vec3::Zero(), Vec3::UnitY(), Vec3::UnitX(), 1.0f, 0.0f, std::numeric_limits<float>::infinity()},
+         {});
   EXPECT_TRUE(list.lines().empty());
 }
 

@@ -14,14 +14,17 @@ using pfx::Vec3;
 int featureEdges(const MeshData& mesh) {
   int count = 0;
   for (size_t t = 0; t + 2 < mesh.vertices.size(); t += 3)
-    for (int e = 0; e < 3; ++e) count += mesh.vertices[t].edge[e] < kPlainEdge && mesh.vertices[t + 1].edge[e] < kPlainEdge;
+    for (int e = 0; e < 3; ++e)
+      count += mesh.vertices[t].edge[e] < kPlainEdge && mesh.vertices[t + 1].edge[e] < kPlainEdge;
   return count;
 }
 
 double signedVolume(const MeshData& mesh) {
   double volume = 0.0;
   for (size_t t = 0; t + 2 < mesh.vertices.size(); t += 3)
-    volume += double(mesh.vertices[t].position.dot(mesh.vertices[t + 1].position.cross(mesh.vertices[t + 2].position))) / 6.0;
+    volume += double(mesh.vertices[t].position.dot(
+                  mesh.vertices[t + 1].position.cross(mesh.vertices[t + 2].position))) /
+              6.0;
   return volume;
 }
 
@@ -55,7 +58,8 @@ TEST(MeshData, FlatNeighboursAreSmoothAndAnOpenBorderIsAFeature) {
 
 TEST(MeshData, NeighboursAreFoundByPlaceNotByIndex) {
   // The same square with each triangle's own vertices.
-  const std::array<Vec3, 6> p = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(1, 0, -1), Vec3(0, 0, 0), Vec3(1, 0, -1), Vec3(0, 0, -1)};
+  const std::array<Vec3, 6> p = {Vec3(0, 0, 0), Vec3(1, 0, 0),  Vec3(1, 0, -1),
+                                 Vec3(0, 0, 0), Vec3(1, 0, -1), Vec3(0, 0, -1)};
   const std::array<uint32_t, 6> indices = {0, 1, 2, 3, 4, 5};
   EXPECT_EQ(featureEdges(makeMesh(p, indices)), 4);
 }
@@ -63,7 +67,8 @@ TEST(MeshData, NeighboursAreFoundByPlaceNotByIndex) {
 TEST(MeshData, BadTrianglesAreLeftOut) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   const std::array<Vec3, 4> p = {Vec3(0, 0, 0), Vec3(1, 0, 0), Vec3(0, 1, 0), Vec3(nan, 0, 0)};
-  const std::array<uint32_t, 13> indices = {0, 1, 2, /* flat */ 0, 1, 1, /* out of range */ 0, 1, 9, /* not finite */ 0, 1, 3, /* rest */ 0};
+  const std::array<uint32_t, 13> indices = {
+      0, 1, 2, /* flat */ 0, 1, 1, /* out of range */ 0, 1, 9, /* not finite */ 0, 1, 3, /* rest */ 0};
   EXPECT_EQ(makeMesh(p, indices).vertices.size(), 3u);
   EXPECT_TRUE(makeMesh({}, {}).vertices.empty());
 }

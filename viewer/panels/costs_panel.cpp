@@ -9,7 +9,8 @@ namespace viewer {
 namespace {
 
 ImU32 stageColor(size_t index) {
-  return ImGui::ColorConvertFloat4ToU32(ImVec4(ImColor::HSV(float(index) * 0.618034f - float(int(float(index) * 0.618034f)), 0.5f, 0.85f)));
+  return ImGui::ColorConvertFloat4ToU32(
+      ImVec4(ImColor::HSV(float(index) * 0.618034f - float(int(float(index) * 0.618034f)), 0.5f, 0.85f)));
 }
 
 // Bars of the steps, newest at the right, the stages on top of one another.
@@ -45,10 +46,12 @@ void costsPanel(const PanelArea& area, const Session& session) {
     ImGui::TextDisabled("no step was made yet");
     return;
   }
-  const float table_width = std::min(360.0f, 0.5f * area.width);
+  const float table_width = std::min(26.0f * ImGui::GetFontSize(), 0.5f * area.width);
   ImGui::BeginChild("table", ImVec2(table_width, 0.0f));
   if (ImGui::BeginTable("costs", 4, ImGuiTableFlags_RowBg)) {
-    for (const char* column : {"stage", "now ms", "mean", "most"}) ImGui::TableSetupColumn(column);
+    ImGui::TableSetupColumn("stage", ImGuiTableColumnFlags_WidthStretch);
+    for (const char* column : {"now ms", "mean", "most"})
+      ImGui::TableSetupColumn(column, ImGuiTableColumnFlags_WidthFixed, 4.2f * ImGui::GetFontSize());
     ImGui::TableHeadersRow();
     const auto line = [](const char* stage, const std::vector<float>& v, ImU32 color) {
       ImGui::TableNextRow();
