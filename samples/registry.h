@@ -9,5 +9,7 @@ namespace samples {
 
 std::vector<SceneEntry> simpleScenes();  // 1_simple
 std::vector<SceneEntry> stableScenes();  // 2_stable
+std::vector<SceneEntry> sleepScenes();       // 3_sleep
+std::vector<SceneEntry> motionTypeScenes();  // 4_motion_type
 
 }  // namespace samples

@@ -62,15 +62,13 @@ std::unique_ptr<Scene> make() {
 
 }  // namespace
 
-std::vector<SceneEntry> basicScenes(std::string_view sample, Pipeline pipeline) {
-  WorldDef world;
-  world.pipeline = pipeline;
+std::vector<SceneEntry> basicScenes(std::string_view sample, const WorldDef& world) {
   return {
       {.sample = sample,
        .name = "primitives",
        .shows = "each kind of shape falls, rolls or tips, and comes to rest",
-       .camera = {.target = Vec3(0.0f, 1.2f, 1.0f), .distance = 19.0f, .yaw_deg = 28.0f, .pitch_deg = 22.0f},
-       .frames = {0, 60, 240},
+       .camera = {.target = Vec3(0.0f, 2.0f, 1.0f), .distance = 21.0f, .yaw_deg = 28.0f, .pitch_deg = 22.0f},
+       .frames = {30, 90, 360},
        .world = world,
        .make = make<Primitives>},
       {.sample = sample,
@@ -83,7 +81,7 @@ std::vector<SceneEntry> basicScenes(std::string_view sample, Pipeline pipeline) 
       {.sample = sample,
        .name = "pyramid",
        .shows = "the lowest row carries 190 boxes and does not sink",
-       .camera = {.target = Vec3(0.0f, 8.5f, 0.0f), .distance = 33.0f, .yaw_deg = 32.0f, .pitch_deg = 12.0f},
+       .camera = {.target = Vec3(0.0f, 9.0f, 0.0f), .distance = 35.0f, .yaw_deg = 32.0f, .pitch_deg = 12.0f},
        .frames = {0, 60, 240},
        .world = world,
        .make = make<Pyramid>},
@@ -92,7 +90,7 @@ std::vector<SceneEntry> basicScenes(std::string_view sample, Pipeline pipeline) 
        .shows = "the same shapes on a mesh of 128 triangles: they follow its slopes and never catch on an "
                 "inner edge",
        .camera = {.target = Vec3(0.0f, 0.0f, 0.0f), .distance = 30.0f, .yaw_deg = 28.0f, .pitch_deg = 24.0f},
-       .frames = {0, 90, 300},
+       .frames = {45, 100, 400},
        .world = world,
        .make = make<Landscape>},
   };

@@ -87,6 +87,20 @@ void addTower(World& world, const TowerSize& size) {
   }
 }
 
+void addWall(World& world, const Vec3& center, const WallSize& size) {
+  for (int row = 0; row < size.rows; ++row) {
+    const int count = size.rows - row;
+    for (int i = 0; i < count; ++i) {
+      const float z = (2.0f * static_cast<float>(i) - static_cast<float>(count - 1)) * size.half_extent;
+      const float y = (2.0f * static_cast<float>(row) + 1.0f) * size.half_extent;
+      world.addBody({.name = "block " + std::to_string(row) + "/" + std::to_string(i),
+                     .pose = {.position = center + Vec3(0.0f, y, z)},
+                     .shapes = {shape(Box{Vec3::Constant(size.half_extent)})},
+                     .mass = size.mass});
+    }
+  }
+}
+
 void addPyramid(World& world, const PyramidSize& size) {
   const float pitch = 2.0f * size.half_extent + size.gap;
   for (int row = 0; row < size.rows; ++row) {

@@ -42,6 +42,15 @@ struct TowerSize {
 // Circular tower on y = 0: rings of boxes, every other ring turned by half a box.
 void addTower(pfx::World& world, const TowerSize& size);
 
+struct WallSize {
+  int rows = 7;
+  float half_extent = 0.5f;  // m, of a box
+  float mass = 0.5f;         // kg, of a box
+};
+
+// Triangular wall of touching boxes in the plane x = centre.x that stands on centre.y; rows run along Z.
+void addWall(pfx::World& world, const pfx::Vec3& center, const WallSize& size);
+
 struct PyramidSize {
   int rows = 20;
   float half_extent = 0.5f;  // m
