@@ -40,7 +40,8 @@ void collideCapsuleCapsule(const LocalPair& pair, LocalResult& result) {
   LocalManifold& m = result.manifold;
   const float size = std::max(a.half_length + a.radius, b.half_length + b.radius);
   const bool crossing = length < kCrossing * size && isInner(at.s) && isInner(at.t);
-  m.normal = crossing || !(length > 1e-6f * size) ? crossNormal(axis_a, axis_b, q - p) : Vec3((q - p) / length);
+  m.normal =
+      crossing || !(length > 1e-6f * size) ? crossNormal(axis_a, axis_b, q - p) : Vec3((q - p) / length);
   const float distance = length - radius;
   if (distance > pair.margin) {
     result.separation = distance;

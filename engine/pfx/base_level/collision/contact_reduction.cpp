@@ -51,10 +51,11 @@ struct Thinned {
   }
 };
 
-// The deepest point and the extreme points in eight directions. A cloud with fewer than four of them gets those that lie
-// farthest from what it has.
+// The deepest point and the extreme points in eight directions. A cloud with fewer than four of them gets
+// those that lie farthest from what it has.
 Thinned thinOut(std::span<const LocalContact> candidates, const TangentPair& t, int deepest) {
-  static constexpr float kDirections[8][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+  static constexpr float kDirections[8][2] = {{1, 0}, {0, 1},  {-1, 0},  {0, -1},
+                                              {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
   const auto planar = [&](int i) {
     const LocalContact& c = candidates[i];
     return Planar{c.point_b.dot(t.t1), c.point_b.dot(t.t2), c.distance, i};
@@ -118,7 +119,8 @@ void reduceContacts(std::span<const LocalContact> candidates, LocalManifold& man
   Thinned thinned;
   if (n <= kMaxExhaustive) {
     for (int i = 0; i < n; ++i) {
-      thinned.add({candidates[i].point_b.dot(t.t1), candidates[i].point_b.dot(t.t2), candidates[i].distance, i});
+      thinned.add(
+          {candidates[i].point_b.dot(t.t1), candidates[i].point_b.dot(t.t2), candidates[i].distance, i});
     }
   } else {
     thinned = thinOut(candidates, t, deepest);

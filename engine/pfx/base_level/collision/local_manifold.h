@@ -9,11 +9,12 @@
 
 namespace pfx {
 
+// Left uninitialized on purpose: the clipper has room for hundreds of them.
 struct LocalContact {
-  Vec3 point_a = Vec3::Zero();  // m, on A, frame of A
-  Vec3 point_b = Vec3::Zero();  // m, on B, frame of A
-  float distance = 0.0f;        // m, (point_b - point_a) . normal
-  uint32_t feature = 0;
+  Vec3 point_a;      // m, on A, frame of A
+  Vec3 point_b;      // m, on B, frame of A
+  float distance;    // m, (point_b - point_a) . normal
+  uint32_t feature;  // names the pair of features
 };
 
 // A contact between two points that do not lie exactly opposite each other: what they are apart across the

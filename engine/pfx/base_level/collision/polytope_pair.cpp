@@ -28,12 +28,15 @@ uint32_t encode(const PolytopeAxis& axis) {
   return uint32_t(axis.kind) << 30 | uint32_t(axis.a) << 15 | axis.b;
 }
 
-// The face axis of the last frame, measured now; kind None when it was none.
-PolytopeAxis rememberedFace(const PolytopePair& p, const LocalPair& pair) {
+// The axis of the last frame, measured now; kind None when there was none.
+PolytopeAxis rememberedAxis(const PolytopePair& p, const LocalPair& pair) {
   const Kind kind = Kind(pair.hint >> 30);
   const uint16_t a = uint16_t(pair.hint >> 15 & 0x7fff), b = uint16_t(pair.hint & 0x7fff);
   if (kind == Kind::FaceA && a < p.a.faces.size()) return faceAxisA(p.a, p.b, pair.b_in_a, a);
   if (kind == Kind::FaceB && b < p.b.faces.size()) return faceAxisB(p.a, p.b, pair.b_in_a, b);
+  if (kind == Kind::Edges && a < p.a.edges.size() && b < p.b.edges.size()) {
+    return edgesAxis(p.a, p.b, pair.b_in_a, a, b);
+  }
   return {};
 }
 
@@ -80,8 +83,7 @@ PolytopeAxis gapAxis(const PolytopePair& p, const LocalPair& pair, const GjkResu
   return {Kind::None, 0, 0, gjk.distance, gjk.normal};
 }
 
-PolytopeAxis overlapAxis(const PolytopePair& p, const LocalPair& pair) {
-  const PolytopeAxis last = rememberedFace(p, pair);
+PolytopeAxis overlapAxis(const PolytopePair& p, const LocalPair& pair, const PolytopeAxis& last) {
   PolytopeAxis start = last;
   if (start.kind == Kind::None) {
     Vec3 toward = pair.b_in_a.toA(p.b.center) - p.a.center;
@@ -90,38 +92,56 @@ PolytopeAxis overlapAxis(const PolytopePair& p, const LocalPair& pair) {
   }
   const PolytopeAxis best = leastOverlap(p.a, p.b, pair.b_in_a, start);
   const float hysteresis = kHysteresis * std::min(p.a.inner_radius, p.b.inner_radius);
-  return last.kind != Kind::None && last.separation > best.separation - hysteresis ? last : best;
+  const bool was_face = last.kind == Kind::FaceA || last.kind == Kind::FaceB;
+  return was_face && last.separation > best.separation - hysteresis ? last : best;
+}
+
+void facesOrEdges(const PolytopePair& p, const PolytopeAxis& axis, const LocalPair& pair,
+                  LocalResult& result) {
+  result.manifold.normal = axis.normal;
+  result.hint = encode(axis);
+  if (axis.kind == Kind::FaceA || axis.kind == Kind::FaceB) facePatch(p, axis, pair, result.manifold);
+  if (axis.kind == Kind::Edges) edgePoint(p, axis, pair, result.manifold);
+}
+
+void collideOverlapping(const PolytopePair& p, const PolytopeAxis& axis, const LocalPair& pair,
+                        LocalResult& result) {
+  LocalManifold& m = result.manifold;
+  facesOrEdges(p, axis, pair, result);
+  if (m.num_points > 0) return;
+  // Rounding clipped everything away although the shapes meet: the deepest corner of B stands for the patch.
+  const Vec3 q = pair.b_in_a.toA(p.core_b.support(-pair.b_in_a.rotateToB(axis.normal)).point);
+  m.add({q - axis.separation * axis.normal, q, axis.separation, 1});
 }
 
 }  // namespace
 
 void collidePolytopes(const PolytopePair& p, const LocalPair& pair, LocalResult& result) {
   LocalManifold& m = result.manifold;
+  const float size = p.a.inner_radius + p.b.inner_radius, near = kNear * size;
+
+  // A pair that overlapped along its last axis mostly still overlaps; the search of axes tells, without the
+  // distance.
+  const PolytopeAxis last = rememberedAxis(p, pair);
+  if (last.kind != Kind::None && last.separation < -near) {
+    const PolytopeAxis axis = overlapAxis(p, pair, last);
+    if (axis.separation < -near) return collideOverlapping(p, axis, pair, result);
+  }
+
   const GjkResult gjk = gjkDistance({p.core_a, p.core_b, pair.b_in_a, pair.axis, pair.margin});
   m.normal = gjk.normal;
   if (gjk.state == GjkResult::State::BeyondLimit || gjk.distance > pair.margin) {
     result.separation = gjk.distance;
     return;
   }
-  const float size = p.a.inner_radius + p.b.inner_radius;
-  const bool gap = gjk.state == GjkResult::State::Separated && gjk.distance > kNear * size;
-  const PolytopeAxis axis = gap ? gapAxis(p, pair, gjk, size) : overlapAxis(p, pair);
-  m.normal = axis.normal;
-  result.hint = encode(axis);
-  if (axis.kind == Kind::FaceA || axis.kind == Kind::FaceB) facePatch(p, axis, pair, m);
-  if (axis.kind == Kind::Edges) edgePoint(p, axis, pair, m);
-  if (gap && deepest(m) > gjk.distance + kSameDepth * size)
-    m.num_points = 0;  // the closest points lie beside the face
-  if (m.num_points > 0) return;
-  if (gjk.state == GjkResult::State::Separated) {
-    m.normal = gjk.distance > kNear * size ? gjk.normal : axis.normal;
-    m.add({gjk.point_a, gjk.point_b, gjk.distance, 1});
-  } else {
-    // Rounding clipped everything away although the shapes meet: the deepest corner of B stands for the
-    // patch.
-    const Vec3 q = pair.b_in_a.toA(p.core_b.support(-pair.b_in_a.rotateToB(axis.normal)).point);
-    m.add({q - axis.separation * axis.normal, q, axis.separation, 1});
+  if (gjk.state == GjkResult::State::Touching || gjk.distance <= near) {
+    return collideOverlapping(p, overlapAxis(p, pair, last), pair, result);
   }
+  facesOrEdges(p, gapAxis(p, pair, gjk, size), pair, result);
+  if (deepest(m) <= gjk.distance + kSameDepth * size) return;
+  m.num_points = 0;  // the closest points lie beside the face
+  m.normal = gjk.normal;
+  m.add({gjk.point_a, gjk.point_b, gjk.distance, 1});
 }
 
 void collideConvexConvex(const LocalPair& pair, LocalResult& result) {

@@ -139,15 +139,28 @@ PolytopeAxis faceAxisB(const Polytope& a, const Polytope& b, const RelativePose&
   return {PolytopeAxis::Kind::FaceB, 0, face, separation, -n};
 }
 
+PolytopeAxis edgesAxis(const Polytope& a, const Polytope& b, const RelativePose& pose, uint16_t edge_a,
+                       uint16_t edge_b) {
+  PolytopeAxis axis;
+  tryEdges(arcOfA(a, edge_a), arcOfB(b, pose, edge_b), axis);
+  return axis;
+}
+
 PolytopeAxis leastOverlap(const Polytope& a, const Polytope& b, const RelativePose& pose,
                           const PolytopeAxis& start) {
   const float preference = kPreference * (a.inner_radius + b.inner_radius);
-  PolytopeAxis face = start.kind == PolytopeAxis::Kind::Edges ? PolytopeAxis{} : start;
+  PolytopeAxis face = start;
+  if (start.kind == PolytopeAxis::Kind::Edges) {
+    face = {};
+    face.separation = start.separation - preference;  // what a face needs to be chosen before these edges
+  }
   searchFaces(a, b, pose, preference, face);
   PolytopeAxis edges = face;
   edges.separation += preference;
+  const bool start_wins = face.kind == PolytopeAxis::Kind::None;
+  if (start_wins) edges = start;
   searchEdges(a, b, pose, edges);
-  return edges.kind == PolytopeAxis::Kind::Edges ? edges : face;
+  return start_wins || edges.kind == PolytopeAxis::Kind::Edges ? edges : face;
 }
 
 }  // namespace pfx

@@ -19,6 +19,11 @@ struct PolytopeAxis {
 PolytopeAxis faceAxisA(const Polytope& a, const Polytope& b, const RelativePose& b_in_a, uint16_t face);
 PolytopeAxis faceAxisB(const Polytope& a, const Polytope& b, const RelativePose& b_in_a, uint16_t face);
 
+// Gap along the common perpendicular of two edges; kind None when they do not form a face of the Minkowski
+// difference.
+PolytopeAxis edgesAxis(const Polytope& a, const Polytope& b, const RelativePose& b_in_a, uint16_t edge_a,
+                       uint16_t edge_b);
+
 // The axis with the largest separation. `start` is an axis that is already known (kind None: nothing known);
 // a good one makes the search short, because a face or edge is skipped when balls inside the polytopes prove
 // that it cannot do better. An edge axis must beat the faces by a few millionths of the size. Sources: S.

@@ -24,10 +24,12 @@ LocalManifold reduce(const std::vector<LocalContact>& candidates) {
 }
 
 bool has(const LocalManifold& m, uint32_t feature) {
-  return std::any_of(m.points.begin(), m.points.begin() + m.num_points, [&](const LocalContact& c) { return c.feature == feature; });
+  return std::any_of(m.points.begin(), m.points.begin() + m.num_points,
+                     [&](const LocalContact& c) { return c.feature == feature; });
 }
 
-// Area of the convex hull of the kept points (gift wrapping over four points: the largest of the triangle sums).
+// Area of the convex hull of the kept points (gift wrapping over four points: the largest of the triangle
+// sums).
 float area(const LocalManifold& m) {
   const auto cross = [&](int a, int b, int c) {
     const Vec3 u = m.points[b].point_a - m.points[a].point_a, v = m.points[c].point_a - m.points[a].point_a;
@@ -51,11 +53,13 @@ TEST(ContactReduction, TheDeepestOfRandomPointsIsAlwaysKept) {
     std::vector<LocalContact> candidates;
     const int count = 5 + k % 30;
     for (int i = 0; i < count; ++i) {
-      const float x = random.uniform(-1.0f, 1.0f), z = random.uniform(-1.0f, 1.0f), d = random.uniform(-0.1f, 0.0f);
+      const float x = random.uniform(-1.0f, 1.0f), z = random.uniform(-1.0f, 1.0f),
+                  d = random.uniform(-0.1f, 0.0f);
       candidates.push_back(at(x, z, d, uint32_t(i)));
     }
-    const auto deepest = std::min_element(candidates.begin(), candidates.end(),
-                                          [](const LocalContact& a, const LocalContact& b) { return a.distance < b.distance; });
+    const auto deepest = std::min_element(
+        candidates.begin(), candidates.end(),
+        [](const LocalContact& a, const LocalContact& b) { return a.distance < b.distance; });
     const LocalManifold m = reduce(candidates);
     EXPECT_EQ(m.num_points, 4);
     EXPECT_TRUE(has(m, deepest->feature));
@@ -63,8 +67,9 @@ TEST(ContactReduction, TheDeepestOfRandomPointsIsAlwaysKept) {
 }
 
 TEST(ContactReduction, OfARectangleWithInnerPointsTheCornersAreKept) {
-  std::vector<LocalContact> candidates{at(0.2f, 0.1f, 0, 0), at(-1, -1, 0, 1), at(0, 0, 0, 2), at(1, -1, 0, 3),
-                                       at(1, 1, 0, 4),       at(0, 1, 0, 5),   at(-1, 1, 0, 6)};
+  std::vector<LocalContact> candidates{at(0.2f, 0.1f, 0, 0), at(-1, -1, 0, 1), at(0, 0, 0, 2),
+                                       at(1, -1, 0, 3),      at(1, 1, 0, 4),   at(0, 1, 0, 5),
+                                       at(-1, 1, 0, 6)};
   const LocalManifold m = reduce(candidates);
   for (const uint32_t corner : {1u, 3u, 4u, 6u}) EXPECT_TRUE(has(m, corner));
 }
@@ -76,7 +81,8 @@ TEST(ContactReduction, RegularPolygonsKeepNearlyTheLargestArea) {
       const float angle = 0.1f + 6.28318531f * float(i) / float(sides);
       candidates.push_back(at(std::cos(angle), std::sin(angle), 0.0f, uint32_t(i)));
     }
-    const float best = sides == 6 ? 1.7320508f : 2.0f;  // of four corners of a hexagon; of a square in the circle
+    const float best =
+        sides == 6 ? 1.7320508f : 2.0f;  // of four corners of a hexagon; of a square in the circle
     EXPECT_GT(area(reduce(candidates)), 0.9f * best);
   }
 }

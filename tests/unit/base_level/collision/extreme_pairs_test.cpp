@@ -13,7 +13,8 @@ using namespace test;
 
 std::vector<Vec3> cubeCorners(float half) {
   std::vector<Vec3> corners;
-  for (int i = 0; i < 8; ++i) corners.emplace_back(i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half);
+  for (int i = 0; i < 8; ++i)
+    corners.emplace_back(i & 1 ? half : -half, i & 2 ? half : -half, i & 4 ? half : -half);
   return corners;
 }
 
@@ -41,8 +42,9 @@ std::vector<Quat> cubeRotations() {
 TEST(ExtremePairs, AlignedShapesOfUnitSizeOverlapTouchAndPartWhereTheyShould) {
   ConvexMesh cube;
   ASSERT_EQ(buildConvexMesh(cubeCorners(0.5f), cube), Error::Ok);
-  const std::array<Shape, 5> shapes{Shape{Sphere{0.5f}, {}}, Shape{Box{Vec3::Constant(0.5f)}, {}}, Shape{Capsule{0.25f, 0.25f}, {}},
-                                    Shape{Cylinder{0.5f, 0.5f}, {}}, Shape{&cube, {}}};
+  const std::array<Shape, 5> shapes{Shape{Sphere{0.5f}, {}}, Shape{Box{Vec3::Constant(0.5f)}, {}},
+                                    Shape{Capsule{0.25f, 0.25f}, {}}, Shape{Cylinder{0.5f, 0.5f}, {}},
+                                    Shape{&cube, {}}};
   for (const Shape& a : shapes) {
     for (const Shape& b : shapes) {
       for (const Quat& turn : cubeRotations()) {
@@ -87,7 +89,8 @@ TEST(ExtremePairs, SmallShapesOnAKilometreSlabKeepTheirFullManifold) {
   EXPECT_EQ(collide(slab, {}, {Box{Vec3::Constant(0.01f)}, {}}, pose, 1e-3f).num_points, 4);
   EXPECT_EQ(collide(slab, {}, {&mesh, {}}, pose, 1e-3f).num_points, 4);
   EXPECT_EQ(collide(slab, {}, {Capsule{0.02f, 0.01f}, {}}, pose, 1e-3f).num_points, 2);
-  const ContactManifold standing = collide(slab, {}, {Cylinder{0.01f, 0.01f}, {}}, {pose.position, upright}, 1e-3f);
+  const ContactManifold standing =
+      collide(slab, {}, {Cylinder{0.01f, 0.01f}, {}}, {pose.position, upright}, 1e-3f);
   EXPECT_EQ(standing.num_points, 4);
   for (int i = 0; i < standing.num_points; ++i) EXPECT_NEAR(standing.points[i].distance, 0.0f, tolerance);
 }
@@ -106,7 +109,8 @@ TEST(ExtremePairs, PointsSegmentsAndSheetsAreFinite) {
   for (const Shape& a : shapes) {
     for (const Shape& b : shapes) {
       expectFinite(collide(a, {}, b, {}, 0.1f));
-      for (int i = 0; i < 50; ++i) expectFinite(collide(a, {}, b, {random.vector(1.0f), random.rotation()}, 0.1f));
+      for (int i = 0; i < 50; ++i)
+        expectFinite(collide(a, {}, b, {random.vector(1.0f), random.rotation()}, 0.1f));
     }
   }
 }
@@ -115,7 +119,8 @@ TEST(ExtremePairs, ALargeMeshHasNoConvexPairFunction) {
   for (int i = 0; i < kNumShapeTypes; ++i) {
     EXPECT_EQ(pairFunction(ShapeType(i), ShapeType::LargeMesh), nullptr);
     for (int j = 0; j < 5 && i < 5; ++j) {
-      const bool one = pairFunction(ShapeType(i), ShapeType(j)) != nullptr, other = pairFunction(ShapeType(j), ShapeType(i)) != nullptr;
+      const bool one = pairFunction(ShapeType(i), ShapeType(j)) != nullptr,
+                 other = pairFunction(ShapeType(j), ShapeType(i)) != nullptr;
       EXPECT_TRUE(i == j ? one : one != other);
     }
   }

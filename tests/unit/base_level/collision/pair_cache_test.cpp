@@ -1,4 +1,5 @@
-// What a pair remembers saves work and changes nothing: a skipped pair is really apart, and contacts are the same.
+// What a pair remembers saves work and changes nothing: a skipped pair is really apart, and contacts are the
+// same.
 #include <vector>
 
 #include "pfx/base_level/shape/convex_hull.h"
@@ -13,8 +14,11 @@ constexpr float kMargin = 0.02f;
 
 std::vector<Shape> shapes(const ConvexMesh& mesh) {
   const Transform offset{Vec3(0.1f, -0.2f, 0.05f), axisAngle(Vec3(1, 2, 3), 0.7f)};
-  return {{Sphere{0.5f}, offset}, {Box{Vec3(0.5f, 0.3f, 0.4f)}, offset}, {Capsule{0.4f, 0.2f}, offset},
-          {Cylinder{0.3f, 0.4f}, offset}, {&mesh, offset}};
+  return {{Sphere{0.5f}, offset},
+          {Box{Vec3(0.5f, 0.3f, 0.4f)}, offset},
+          {Capsule{0.4f, 0.2f}, offset},
+          {Cylinder{0.3f, 0.4f}, offset},
+          {&mesh, offset}};
 }
 
 ConvexMesh rock(Random& random) {
@@ -34,7 +38,8 @@ TEST(PairCache, TumblingPairsFindTheSameContactsWithAndWithoutIt) {
     for (const Shape& b : list) {
       for (int run = 0; run < 6; ++run) {
         PairCache cache;
-        Transform pose_a{random.vector(0.8f), random.rotation()}, pose_b{random.vector(0.8f), random.rotation()};
+        Transform pose_a{random.vector(0.8f), random.rotation()},
+            pose_b{random.vector(0.8f), random.rotation()};
         const Vec3 velocity = random.vector(0.02f), spin_a = random.direction(), spin_b = random.direction();
         for (int frame = 0; frame < 60; ++frame) {
           pose_a.orientation = (axisAngle(spin_a, 0.03f) * pose_a.orientation).normalized();
@@ -47,8 +52,8 @@ TEST(PairCache, TumblingPairsFindTheSameContactsWithAndWithoutIt) {
           apart += without.num_points == 0;
           if (without.num_points == 0) continue;
           ++touching;
-          // An axis kept by hysteresis is worse by less than a thousandth of the size, but the deepest corner may then lie a
-          // little beside the reference face.
+          // An axis kept by hysteresis is worse by less than a thousandth of the size, but the deepest corner
+          // may then lie a little beside the reference face.
           EXPECT_NEAR(deepest(with), deepest(without), 4e-3f);
         }
       }
@@ -70,7 +75,8 @@ TEST(PairCache, ASkippedPairIsFartherApartThanTheMargin) {
     PairCache cache;
     collide(a, pose_a, b, pose_b, kMargin, &cache);
     pose_b.position += random.vector(0.1f);
-    pose_b.orientation = (axisAngle(random.direction(), random.uniform(0.0f, 0.3f)) * pose_b.orientation).normalized();
+    pose_b.orientation =
+        (axisAngle(random.direction(), random.uniform(0.0f, 0.3f)) * pose_b.orientation).normalized();
     if (!provablyApart(cache, relative(pose_a, pose_b), kMargin)) continue;
     ++skipped;
     EXPECT_EQ(collide(a, pose_a, b, pose_b, kMargin).num_points, 0);
