@@ -9,7 +9,8 @@ namespace pfx {
 namespace {
 
 constexpr double kStiffnessShare = 0.1;  // of the inertia, from which on geometric stiffness is added
-constexpr double kStiffnessScale = 0.5;
+// Above this ratio of h^2 |K| to the inertia a sub-step no longer resolves the vibration: it is damped instead.
+constexpr double kUnresolved = 2.0;
 
 // Quaternion of the rotation by |u| radians about u.
 Quatd turnBy(const Vec3d& u) {
@@ -94,6 +95,7 @@ void predict(DirectBody& b, double h) {
 
 void updateInverseInertia(DirectBody& b, double h) {
   if (!b.dynamic) return;
+  b.stiffened = false;
   const Vec3d columns = h * h * b.stiffness.colwise().norm().transpose();
   if (b.spherical && columns.maxCoeff() <= kStiffnessShare * b.body_inertia(0, 0)) {
     b.inverse = b.body_inverse;
@@ -105,8 +107,9 @@ void updateInverseInertia(DirectBody& b, double h) {
     b.inverse = r * b.body_inverse * r.transpose();
     return;
   }
+  b.stiffened = columns.maxCoeff() > kUnresolved * least;
   Mat3d world = r * b.body_inertia * r.transpose();
-  world.diagonal() += kStiffnessScale * columns;
+  world.diagonal() += (b.stiffened ? 1.0 : 0.5) * columns;
   b.inverse = world.inverse();
 }
 

@@ -20,6 +20,7 @@ struct DirectBody {
   Mat3d inverse = Mat3d::Zero();  // 1/(kg m^2), world axes; what impulses see, stiffened where joints pull hard
   Mat3d stiffness = Mat3d::Zero();  // N m/rad, change of torque as the body turns under the joints' forces
   bool spherical = true;
+  bool stiffened = false;  // vibrates faster than a sub-step resolves
   bool dynamic = false;
   Vec3d acceleration = Vec3d::Zero();  // m/s^2
   Vec3d torque = Vec3d::Zero();        // N m
@@ -36,8 +37,8 @@ void kick(DirectBody& body, double h, double part);
 void predict(DirectBody& body, double h);
 
 // Sets the inverse inertia for the current pose. With geometric stiffness K (`stiffness`) the inertia grows by
-// h^2 |K| / 2, column by column, where h^2 |K| exceeds a tenth of it: that keeps light bodies between heavy ones
-// stable, while well-conditioned joints stay conservative. Source: S. Andrews, M. Teichmann, P. Kry, Geometric
+// h^2 |K| / 2, column by column, where h^2 |K| exceeds a tenth of it, and by h^2 |K| where it exceeds twice of it: that
+// keeps light bodies between heavy ones stable, while well-conditioned joints stay conservative. Source: S. Andrews, M. Teichmann, P. Kry, Geometric
 // Stiffness for Real-time Constrained Multibody Dynamics, Eurographics 2017; E. Tournier et al., Stable Constrained
 // Dynamics, SIGGRAPH 2015.
 void updateInverseInertia(DirectBody& body, double h);

@@ -126,6 +126,10 @@ void DirectComponent::linearize(const DirectSubstep& s) {
   for (DirectJoint& j : joints_) updateResponses(j, bodies_);
 }
 
+bool DirectComponent::isStiffened() const {
+  return std::any_of(bodies_.begin(), bodies_.end(), [](const DirectBody& b) { return b.stiffened; });
+}
+
 void DirectComponent::factor() {
   const int n = block_;
   const size_t size = static_cast<size_t>(n) * n;
@@ -260,8 +264,9 @@ void DirectComponent::sumImpulses() {
 void DirectComponent::advance(std::span<RigidState> states) {
   const double h = params_.h;
   for (int i = 0; i < params_.substeps; ++i) {
-    const DirectSubstep s{h, i == 0 ? 0.5 : 1.0, true, closed_ ? kClosedSlop : 0.0};
+    DirectSubstep s{h, i == 0 ? 0.5 : 1.0, true, false, closed_ ? kClosedSlop : 0.0};
     linearize(s);
+    s.linear = isStiffened();
     linearized_ = false;
     for (DirectBody& b : bodies_) kick(b, h, s.part);
     startFrom(s.part);
@@ -270,7 +275,7 @@ void DirectComponent::advance(std::span<RigidState> states) {
     sumImpulses();
     for (DirectBody& b : bodies_) b.pose = b.next, b.w = b.next_w;
   }
-  const DirectSubstep last{h, 0.5, true, 0.0};
+  const DirectSubstep last{h, 0.5, true, false, 0.0};
   linearize(last);
   linearized_ = false;
   for (DirectBody& b : bodies_) kick(b, h, last.part);
@@ -310,21 +315,21 @@ void DirectComponent::store(std::span<SolverBody> bodies, std::span<const uint32
 
 void DirectComponent::applyWarmStart(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index) {
   load(bodies, solver_index);
-  linearize({params_.h, 1.0, false, 0.0});
+  linearize({params_.h, 1.0, false, false, 0.0});
   linearized_ = false;
   startFrom(1.0);
   store(bodies, solver_index);
 }
 
 void DirectComponent::solvePositions(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index) {
-  const DirectSubstep s{params_.h, 1.0, false, closed_ ? kClosedSlop : 0.0};
+  const DirectSubstep s{params_.h, 1.0, false, isStiffened(), closed_ ? kClosedSlop : 0.0};
   load(bodies, solver_index);
   holdPositions(s);
   store(bodies, solver_index);
 }
 
 void DirectComponent::solveVelocities(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index) {
-  const DirectSubstep s{params_.h, 1.0, false, 0.0};
+  const DirectSubstep s{params_.h, 1.0, false, false, 0.0};
   load(bodies, solver_index);
   linearize(s);
   linearized_ = false;

@@ -53,6 +53,7 @@ class DirectComponent {
  private:
   void linearize(const DirectSubstep& s);
   void addStiffness(const DirectJoint& j);
+  bool isStiffened() const;
   void factor();
   void solve();
   double fillResiduals(const DirectSubstep& s, bool velocity_only);

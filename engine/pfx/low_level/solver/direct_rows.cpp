@@ -295,7 +295,8 @@ RowResidual rowResidual(const DirectJoint& j, int row, std::span<const DirectBod
     return {r.drive_speed - rowSpeed(j, row, bodies) - r.drive_compliance * r.impulse, tolerance};
   const double give = r.softness * r.diagonal * r.impulse;
   if (velocity_only) return {-rowSpeed(j, row, bodies) - give, tolerance};
-  const double error = r.next - r.goal, slop = s.slop * (r.axis < 3 ? j.length : 1.0);
+  const double reached = s.linear ? r.value + s.h * rowSpeed(j, row, bodies) : r.next;
+  const double error = reached - r.goal, slop = s.slop * (r.axis < 3 ? j.length : 1.0);
   return {-(error - std::clamp(error, -slop, slop)) / s.h - give, tolerance};
 }
 
