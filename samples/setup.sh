@@ -69,8 +69,12 @@ needPackages() {
     mapfile -t optional < <(availablePackages "${optional[@]}")
   fi
   say "installing ${required[*]} ${optional[*]}"
-  "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends install \
-    "${required[@]}" "${optional[@]}" || fail "apt-get could not install: ${required[*]} ${optional[*]}" 2
+  mkdir -p "$project_root/build"
+  "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -y --no-install-recommends install \
+    "${required[@]}" "${optional[@]}" >"$project_root/build/packages.log" 2>&1 || {
+    tail -20 "$project_root/build/packages.log" >&2
+    fail "apt-get could not install: ${required[*]} ${optional[*]}" 2
+  }
 }
 
 # buildPreset PRESET "TARGET..." [CMAKE_OPTION...]: configures and builds into build/PRESET.

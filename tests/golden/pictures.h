@@ -1,4 +1,5 @@
-// Synthetic pictures for the tests: shaded boxes on a ground, thin lines and digits, with one thing changed on demand.
+// Synthetic pictures for the tests: shaded boxes on a ground, thin lines and digits, with one thing changed
+// on demand.
 #pragma once
 
 #include <algorithm>
@@ -15,7 +16,13 @@ using viewer::Image;
 
 // A seeded defect, or what may vary without harm.
 enum class Change {
-  None, BoxMissing, BoxMovedOneCentimetre, ColourFivePercent, LineMissing, DigitChanged, RoundingNoise
+  None,
+  BoxMissing,
+  BoxMovedOneCentimetre,
+  ColourFivePercent,
+  LineMissing,
+  DigitChanged,
+  RoundingNoise
 };
 
 inline void setPixel(Image& image, int x, int y, const std::array<float, 3>& color, float coverage = 1.0f) {
@@ -27,13 +34,20 @@ inline void setPixel(Image& image, int x, int y, const std::array<float, 3>& col
 
 inline const char* nameOf(Change change) {
   switch (change) {
-    case Change::None: return "None";
-    case Change::BoxMissing: return "BoxMissing";
-    case Change::BoxMovedOneCentimetre: return "BoxMovedOneCentimetre";
-    case Change::ColourFivePercent: return "ColourFivePercent";
-    case Change::LineMissing: return "LineMissing";
-    case Change::DigitChanged: return "DigitChanged";
-    case Change::RoundingNoise: return "RoundingNoise";
+    case Change::None:
+      return "None";
+    case Change::BoxMissing:
+      return "BoxMissing";
+    case Change::BoxMovedOneCentimetre:
+      return "BoxMovedOneCentimetre";
+    case Change::ColourFivePercent:
+      return "ColourFivePercent";
+    case Change::LineMissing:
+      return "LineMissing";
+    case Change::DigitChanged:
+      return "DigitChanged";
+    case Change::RoundingNoise:
+      return "RoundingNoise";
   }
   return "";
 }
@@ -52,11 +66,14 @@ inline void fillBox(Image& image, float x0, float x1, int y0, int y1, const std:
 
 // Digits 3 and 8 of a 5x7 font at double size: they differ in 20 pixels of the left column.
 inline void drawDigit(Image& image, int x0, int y0, bool eight) {
-  static constexpr std::array<uint8_t, 7> kThree = {0b01110, 0b00001, 0b00001, 0b00110, 0b00001, 0b00001, 0b01110};
-  static constexpr std::array<uint8_t, 7> kEight = {0b01110, 0b10001, 0b10001, 0b01110, 0b10001, 0b10001, 0b01110};
+  static constexpr std::array<uint8_t, 7> kThree = {0b01110, 0b00001, 0b00001, 0b00110,
+                                                    0b00001, 0b00001, 0b01110};
+  static constexpr std::array<uint8_t, 7> kEight = {0b01110, 0b10001, 0b10001, 0b01110,
+                                                    0b10001, 0b10001, 0b01110};
   for (int y = 0; y < 14; ++y)
     for (int x = 0; x < 10; ++x)
-      if ((eight ? kEight : kThree)[size_t(y / 2)] >> (4 - x / 2) & 1) setPixel(image, x0 + x, y0 + y, {20, 20, 20});
+      if ((eight ? kEight : kThree)[size_t(y / 2)] >> (4 - x / 2) & 1)
+        setPixel(image, x0 + x, y0 + y, {20, 20, 20});
 }
 
 // 640x360, about 25 px to the metre: 1 cm is a quarter of a pixel.
@@ -66,7 +83,8 @@ inline Image drawPicture(Change change) {
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
       const float sky = 235.0f - 0.2f * float(y);
-      setPixel(image, x, y, y < 180 ? std::array{sky - 20, sky - 8, sky} : std::array{150.0f, 152.0f, 148.0f});
+      setPixel(image, x, y,
+               y < 180 ? std::array{sky - 20, sky - 8, sky} : std::array{150.0f, 152.0f, 148.0f});
     }
   for (int row = 0; row < 10; ++row)
     for (int column = 0; column <= row; ++column) {

@@ -43,7 +43,8 @@ SleepFacts explainSleep(const pfx::World& world, uint32_t island) {
       fastest = std::max(linear, angular);
       f.fastest = body, f.linear_speed = linear, f.angular_speed = angular;
     }
-    if (states[body].sleep_count < f.slow_steps) f.least_rested = body, f.slow_steps = states[body].sleep_count;
+    if (states[body].sleep_count < f.slow_steps)
+      f.least_rested = body, f.slow_steps = states[body].sleep_count;
   }
   f.why = explain(world, view, f);
   return f;

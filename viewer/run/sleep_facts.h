@@ -8,12 +8,12 @@
 namespace viewer {
 
 struct SleepFacts {
-  uint32_t fastest = 0;          // body index of the member that is furthest above or nearest to the sleep velocity
-  float linear_speed = 0.0f;     // m/s, of that body
-  float angular_speed = 0.0f;    // rad/s
-  uint32_t least_rested = 0;     // body index of the member that was slow for the fewest steps
-  uint32_t slow_steps = 0;       // those steps
-  std::string why;               // one sentence
+  uint32_t fastest = 0;  // body index of the member that is furthest above or nearest to the sleep velocity
+  float linear_speed = 0.0f;   // m/s, of that body
+  float angular_speed = 0.0f;  // rad/s
+  uint32_t least_rested = 0;   // body index of the member that was slow for the fewest steps
+  uint32_t slow_steps = 0;     // those steps
+  std::string why;             // one sentence
 };
 
 // Of an island of the world (index < world.numIslands()).

@@ -16,15 +16,17 @@ constexpr float kNormalLength = 0.3f;      // m
 void WorldView::addBodyOverlays(const pfx::World& world, const Overlays& overlays) {
   const auto states = world.states();
   for (uint32_t body = 0; body < states.size(); ++body)
-    debug_.setVisible(body, world.isValid(world.bodyId(body)) && states[body].motion_type != pfx::MotionType::Fixed);
+    debug_.setVisible(
+        body, world.isValid(world.bodyId(body)) && states[body].motion_type != pfx::MotionType::Fixed);
   debug_.scale = kAxisLength;
   if (overlays.aabb) debug_.renderAabb(states, world.collidables());
   if (overlays.axes) debug_.renderLocalAxis(states);
   if (!overlays.velocity) return;
   for (uint32_t body = 0; body < states.size(); ++body)
     if (debug_.getVisible(body) && states[body].linear_velocity.norm() > kSlowest)
-      list_.add(Arrow{states[body].position, states[body].position + kVelocitySeconds * states[body].linear_velocity,
-                      kVelocityColor, 2.0f, pickId(PickKind::Body, body)});
+      list_.add(Arrow{states[body].position,
+                      states[body].position + kVelocitySeconds * states[body].linear_velocity, kVelocityColor,
+                      2.0f, pickId(PickKind::Body, body)});
 }
 
 void WorldView::addContacts(const pfx::World& world) {
@@ -48,7 +50,8 @@ void WorldView::addIslands(const pfx::World& world) {
 void WorldView::add(const pfx::World& world, const Overlays& overlays) {
   const auto states = world.states();
   debug_.resetVisible(uint32_t(states.size()));
-  for (uint32_t body = 0; body < states.size(); ++body) debug_.setVisible(body, world.isValid(world.bodyId(body)));
+  for (uint32_t body = 0; body < states.size(); ++body)
+    debug_.setVisible(body, world.isValid(world.bodyId(body)));
   debug_.renderSolids(states, world.collidables());
   if (overlays.contacts) addContacts(world);
   if (overlays.islands) addIslands(world);

@@ -1,5 +1,5 @@
-// Distance first: most pairs whose bounds meet do not touch. Then the axis: for a gap from the closest points, for an
-// overlap from the separating-axis search. Then the patch.
+// Distance first: most pairs whose bounds meet do not touch. Then the axis: for a gap from the closest
+// points, for an overlap from the separating-axis search. Then the patch.
 #include "pfx/base_level/collision/polytope_pair.h"
 
 #include <algorithm>
@@ -18,7 +18,8 @@ using Kind = PolytopeAxis::Kind;
 constexpr float kHysteresis = 1e-3f;  // of the smaller inner radius; see box_pair.cpp
 // Below this gap, as a fraction of the size, the direction between the closest points is mostly rounding.
 constexpr float kNear = 1e-4f;
-// A face normal stands for the axis when its gap is short of the distance by no more than this fraction of the size.
+// A face normal stands for the axis when its gap is short of the distance by no more than this fraction of
+// the size.
 constexpr float kFaceGap = 1e-6f;
 constexpr float kSameDepth = 1e-5f;  // of the size: depths that count as equal
 
@@ -64,11 +65,13 @@ void edgePoint(const PolytopePair& p, const PolytopeAxis& axis, const LocalPair&
   m.add(oppositePoints(on_a, on_b, axis.normal, encode(axis)));
 }
 
-// The axis of a pair with a clear gap: a face normal where the closest points lie on a face, else their direction.
+// The axis of a pair with a clear gap: a face normal where the closest points lie on a face, else their
+// direction.
 PolytopeAxis gapAxis(const PolytopePair& p, const LocalPair& pair, const GjkResult& gjk, float size) {
   const auto face_a = uint16_t(supportingFace(p.a, gjk.normal));
   const auto face_b = uint16_t(supportingFace(p.b, -pair.b_in_a.rotateToB(gjk.normal)));
-  const PolytopeAxis a = faceAxisA(p.a, p.b, pair.b_in_a, face_a), b = faceAxisB(p.a, p.b, pair.b_in_a, face_b);
+  const PolytopeAxis a = faceAxisA(p.a, p.b, pair.b_in_a, face_a),
+                     b = faceAxisB(p.a, p.b, pair.b_in_a, face_b);
   const float needed = gjk.distance - kFaceGap * (size + gjk.distance);
   const bool b_before = Kind(pair.hint >> 30) == Kind::FaceB;
   if (b_before && b.separation >= needed) return b;
@@ -107,20 +110,23 @@ void collidePolytopes(const PolytopePair& p, const LocalPair& pair, LocalResult&
   result.hint = encode(axis);
   if (axis.kind == Kind::FaceA || axis.kind == Kind::FaceB) facePatch(p, axis, pair, m);
   if (axis.kind == Kind::Edges) edgePoint(p, axis, pair, m);
-  if (gap && deepest(m) > gjk.distance + kSameDepth * size) m.num_points = 0;  // the closest points lie beside the face
+  if (gap && deepest(m) > gjk.distance + kSameDepth * size)
+    m.num_points = 0;  // the closest points lie beside the face
   if (m.num_points > 0) return;
   if (gjk.state == GjkResult::State::Separated) {
     m.normal = gjk.distance > kNear * size ? gjk.normal : axis.normal;
     m.add({gjk.point_a, gjk.point_b, gjk.distance, 1});
   } else {
-    // Rounding clipped everything away although the shapes meet: the deepest corner of B stands for the patch.
+    // Rounding clipped everything away although the shapes meet: the deepest corner of B stands for the
+    // patch.
     const Vec3 q = pair.b_in_a.toA(p.core_b.support(-pair.b_in_a.rotateToB(axis.normal)).point);
     m.add({q - axis.separation * axis.normal, q, axis.separation, 1});
   }
 }
 
 void collideConvexConvex(const LocalPair& pair, LocalResult& result) {
-  const Polytope a = std::get<const ConvexMesh*>(pair.a)->view(), b = std::get<const ConvexMesh*>(pair.b)->view();
+  const Polytope a = std::get<const ConvexMesh*>(pair.a)->view(),
+                 b = std::get<const ConvexMesh*>(pair.b)->view();
   collidePolytopes({a, polytopeCore(a), b, polytopeCore(b)}, pair, result);
 }
 

@@ -44,11 +44,23 @@ void restChangedBodies(World::Impl& w) {
   changed.clear();
 }
 
+// Removes pairs that a joint keeps from colliding; both lists ascend.
+void dropJointedPairs(World::Impl& w, std::vector<Pair>& pairs) {
+  auto apart = w.joint_store.keptApart();
+  if (apart.empty()) return;
+  std::erase_if(pairs, [&](const Pair& p) {
+    while (!apart.empty() && apart.front() < p.key()) apart = apart.subspan(1);
+    return !apart.empty() && apart.front() == p.key();
+  });
+}
+
 }  // namespace
 
 void begin(World::Impl& w) {
   w.refreshActive();
   w.constraints.clear();
+  w.joint_step.clear();
+  w.free_components.clear();
   w.free_bodies = w.active;
 }
 
@@ -59,6 +71,7 @@ void findPairsAnew(World::Impl& w) {
   makeProxies(w, w.all_bodies, w.proxies);
   const auto found = w.sweep.findPairs(w.proxies, axisOfLargestVariance(w.proxies), &w.tasks);
   w.pairs.assign(found.begin(), found.end());
+  dropJointedPairs(w, w.pairs);
   w.contacts.clear();
   for (Pair& p : w.pairs) p.contact_id = w.contacts.add();
 }
@@ -69,9 +82,10 @@ void updatePairs(World::Impl& w) {
   w.tree.update(w.proxies, &w.tasks);
   const auto found = w.tree.activePairs();
   w.next_pairs.assign(found.begin(), found.end());
+  dropJointedPairs(w, w.next_pairs);
   auto out = w.next_pairs.begin();
   comparePairs(
-      w.pairs, found, [&](const Pair&) { (out++)->contact_id = w.contacts.add(); },
+      w.pairs, w.next_pairs, [&](const Pair&) { (out++)->contact_id = w.contacts.add(); },
       [&](const Pair& old, const Pair&) { (out++)->contact_id = old.contact_id; },
       [&](const Pair& old) { w.contacts.remove(old.contact_id); });
   w.pairs.swap(w.next_pairs);

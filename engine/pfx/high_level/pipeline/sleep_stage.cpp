@@ -30,6 +30,11 @@ void World::Impl::wakeNeighbours(uint32_t body) {
       if (p.body_b == body) wake(p.body_a);
     }
   }
+  for (const JointLink& j : joint_store.links) {
+    if (!j.exists) continue;
+    if (j.body_a == body) wake(j.body_b);
+    if (j.body_b == body) wake(j.body_a);
+  }
   revivePairs();
 }
 

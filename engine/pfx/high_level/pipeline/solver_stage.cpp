@@ -77,6 +77,11 @@ void flyFree(World::Impl& w) {
   });
 }
 
+void beginComponent(World::Impl& w, JointComponent& c, const DirectStepParams& params) {
+  for (size_t i = 0; i < c.bodies.size(); ++i) c.motions[i] = makeMotion(w, c.bodies[i], static_cast<float>(params.h));
+  c.direct.begin(w.store.states, w.store.bodies, c.motions, params);
+}
+
 void setUpSolver(World::Impl& w) {
   w.solved.clear();
   for (uint32_t i = 0; i < w.solver_index.size(); ++i) {
@@ -102,6 +107,10 @@ void setUpSolver(World::Impl& w) {
       w.solver_dynamic[k] = isDynamic(w.store.states[i].motion_type);
     }
   });
+  for (JointComponent* c : w.joint_step.components()) {
+    for (size_t i = 0; i < c->bodies.size(); ++i) c->solver_index[i] = w.solver_index[c->bodies[i]];
+    beginComponent(w, *c, {params.h, params.substeps, params.warm_start});
+  }
   w.soft_step.prepare(w.constraints, w.solver_dynamic, w.solver_bodies, params, w.tasks);
   for (SolverBody& b : w.solver_bodies) {
     const SolverBody at_rest;
@@ -109,7 +118,10 @@ void setUpSolver(World::Impl& w) {
   }
 }
 
-void solve(World::Impl& w) { w.soft_step.solve(w.solver_bodies, w.motions, solveParams(w), w.tasks); }
+void solve(World::Impl& w) {
+  w.soft_step.solve(w.solver_bodies, w.motions, solveParams(w), w.joint_step, w.tasks);
+  w.joint_step.end();
+}
 
 void writeBack(World::Impl& w) {
   w.tasks.parallelFor(static_cast<uint32_t>(w.solved.size()), kBodyGrain, [&](TaskRange r) {

@@ -11,7 +11,10 @@ namespace {
 
 bool hasSeveralBodies(const World::Impl& w) { return w.store.count() > 1; }
 bool hasPairs(const World::Impl& w) { return !w.pairs.empty(); }
-bool hasConstraints(const World::Impl& w) { return !w.constraints.empty(); }
+bool hasConstraints(const World::Impl& w) { return !w.constraints.empty() || !w.joint_step.empty(); }
+bool hasContacts(const World::Impl& w) { return !w.constraints.empty(); }
+bool hasJoints(const World::Impl& w) { return w.joint_store.count() > 0; }
+bool hasFreeComponents(const World::Impl& w) { return !w.free_components.empty(); }
 bool hasFreeBodies(const World::Impl& w) { return !w.free_bodies.empty(); }
 bool hasKeyframes(const World::Impl& w) { return w.moving.size() > w.active.size() || !w.keyframes.empty(); }
 bool hasSleepers(const World::Impl& w) { return w.def.sleeping && w.num_sleepers > 0 && hasPairs(w); }
@@ -21,10 +24,13 @@ constexpr std::array kSimple = {
     Stage{"broad phase", hasSeveralBodies, stage::findPairsAnew},
     Stage{"collision", hasPairs, stage::detectCollisions},
     Stage{"constraints", hasPairs, stage::gatherConstraints},
+    Stage{"joints", hasJoints, stage::gatherJoints},
     Stage{"free flight", hasFreeBodies, stage::flyFree},
+    Stage{"joint components", hasFreeComponents, stage::solveJointComponents},
     Stage{"solver set-up", hasConstraints, stage::setUpSolver},
     Stage{"solve", hasConstraints, stage::solve},
     Stage{"write back", hasConstraints, stage::writeBack},
+    Stage{"break joints", hasJoints, stage::breakJoints},
     Stage{"key frames", hasKeyframes, stage::followKeyframes},
 };
 
@@ -33,12 +39,15 @@ constexpr std::array kStable = {
     Stage{"collision", hasPairs, stage::detectCollisions},
     Stage{"wake", hasSleepers, stage::wakeTouched},
     Stage{"constraints", hasPairs, stage::gatherConstraints},
+    Stage{"joints", hasJoints, stage::gatherJoints},
     Stage{"free flight", hasFreeBodies, stage::flyFree},
+    Stage{"joint components", hasFreeComponents, stage::solveJointComponents},
     Stage{"solver set-up", hasConstraints, stage::setUpSolver},
     Stage{"solve", hasConstraints, stage::solve},
     Stage{"write back", hasConstraints, stage::writeBack},
+    Stage{"break joints", hasJoints, stage::breakJoints},
     Stage{"key frames", hasKeyframes, stage::followKeyframes},
-    Stage{"store impulses", hasConstraints, stage::storeImpulses},
+    Stage{"store impulses", hasContacts, stage::storeImpulses},
     Stage{"sleep", sleeps, stage::putToSleep},
 };
 

@@ -2,6 +2,7 @@
 #pragma once
 
 #include "pfx/high_level/world/world.h"
+#include "pfx/low_level/solver/joint_components.h"
 
 namespace pfx::stage {
 
@@ -10,13 +11,19 @@ void findPairsAnew(World::Impl& world);      // pairs and contacts from nothing
 void updatePairs(World::Impl& world);        // pairs, keeping the contacts of those that stay
 void detectCollisions(World::Impl& world);   // manifolds of all pairs
 void gatherConstraints(World::Impl& world);  // manifolds to be solved; bodies that fly free
+void gatherJoints(World::Impl& world);       // components of joints, and who solves each
 void flyFree(World::Impl& world);            // bodies without a constraint, in closed form
+void solveJointComponents(World::Impl& world);  // components of joints without contacts, alone
 void setUpSolver(World::Impl& world);        // solver bodies and rows
 void solve(World::Impl& world);              // the sub-steps
 void writeBack(World::Impl& world);          // solver bodies to states
 void followKeyframes(World::Impl& world);    // key-frame bodies reach their pose
 void storeImpulses(World::Impl& world);      // rows to manifolds, for the next step
 void wakeTouched(World::Impl& world);        // islands that something touches wake up
+void breakJoints(World::Impl& world);        // joints beyond their strength are removed
 void putToSleep(World::Impl& world);         // islands at rest fall asleep
+
+// Fills in the bodies of a component for a step.
+void beginComponent(World::Impl& world, JointComponent& component, const DirectStepParams& params);
 
 }  // namespace pfx::stage

@@ -1,5 +1,6 @@
 #include "pfx/high_level/world/world.h"
 
+#include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
@@ -40,6 +41,10 @@ void World::Impl::linkIslands() {
     island_links.push_back({pairs[i].body_a, pairs[i].body_b});
     island_link_pairs.push_back(i);
   }
+  for (const JointLink& j : joint_store.links) {
+    if (j.exists && solvesConstraint(store.states[j.body_a].motion_type, store.states[j.body_b].motion_type))
+      island_links.push_back({j.body_a, j.body_b});
+  }
   islands.build(store.states, island_links);
 }
 
@@ -74,6 +79,10 @@ void World::removeBody(BodyId id) {
       impl_->contacts.remove(p.contact_id);
       return true;
     });
+  }
+  for (uint32_t i = 0; i < impl_->joint_store.links.size(); ++i) {
+    const JointLink& link = impl_->joint_store.links[i];
+    if (link.exists && (link.body_a == id.index || link.body_b == id.index)) removeJoint(jointId(i));
   }
   impl_->store.remove(id.index);
   impl_->active_changed = true;
@@ -126,6 +135,48 @@ void World::moveKeyframe(BodyId id, const Transform& pose, float dt) {
       sine == 0.0f ? Vec3(Vec3::Zero()) : Vec3(2.0f * atan2(sine, turn.w()) / (sine * dt) * turn.vec());
 }
 
+JointId World::addJoint(const JointDef& def) {
+  if (!isValid(def.body_a) || !isValid(def.body_b))
+    throw std::invalid_argument("joint \"" + def.name + "\": a body does not exist");
+  if (def.body_a == def.body_b) throw std::invalid_argument("joint \"" + def.name + "\": both bodies are the same");
+  impl_->wake(def.body_a.index);
+  impl_->wake(def.body_b.index);
+  impl_->revivePairs();
+  const auto states = impl_->store.states.begin();
+  return impl_->joint_store.add(def, makeJoint(states[def.body_a.index], states[def.body_b.index], def.params));
+}
+
+void World::removeJoint(JointId id) {
+  if (!isValid(id)) return;
+  const JointLink link = impl_->joint_store.links[id.index];
+  impl_->wake(link.body_a);
+  impl_->wake(link.body_b);
+  impl_->revivePairs();
+  impl_->joint_store.remove(id.index);
+}
+
+bool World::isValid(JointId id) const { return impl_->joint_store.isValid(id); }
+JointId World::jointId(uint32_t index) const { return {index, impl_->joint_store.generations.at(index)}; }
+std::span<const Joint> World::joints() const { return impl_->joint_store.joints; }
+std::span<const JointLink> World::jointLinks() const { return impl_->joint_store.links; }
+std::string_view World::jointName(uint32_t index) const { return impl_->joint_store.names.at(index); }
+std::span<const JointId> World::brokenJoints() const { return impl_->broken_joints; }
+
+Joint& World::joint(JointId id) {
+  if (!isValid(id)) throw std::invalid_argument("world: the joint does not exist");
+  const JointLink& link = impl_->joint_store.links[id.index];
+  impl_->wake(link.body_a);
+  impl_->wake(link.body_b);
+  impl_->revivePairs();
+  return impl_->joint_store.joints[id.index];
+}
+
+JointError World::jointError(uint32_t index) const {
+  const JointLink& link = impl_->joint_store.links.at(index);
+  const auto pose = [&](uint32_t body) { return toDouble(impl_->store.states[body].pose()); };
+  return pfx::jointError(impl_->joint_store.joints[index], pose(link.body_a), pose(link.body_b));
+}
+
 std::span<const Pair> World::contactPairs() const { return impl_->pairs; }
 
 std::span<const ContactManifold> World::manifolds(const Pair& pair) const {
@@ -140,8 +191,12 @@ uint32_t World::numIslands() const {
 IslandView World::island(uint32_t index) const {
   const auto bodies = impl_->islands.bodies(index);
   const RigidState& first = impl_->store.states[bodies.front()];
+  const auto links = impl_->islands.links(index);
+  const auto first_joint = std::lower_bound(links.begin(), links.end(), impl_->island_link_pairs.size());
+  const auto num_contacts = static_cast<size_t>(first_joint - links.begin());
   return {.bodies = bodies,
-          .contacts = impl_->islands.links(index),
+          .contacts = links.first(num_contacts),
+          .joints = static_cast<uint32_t>(links.size() - num_contacts),
           .asleep = first.asleep,
           .sleep_timer = static_cast<float>(first.sleep_count) * impl_->dt};
 }
@@ -157,6 +212,7 @@ WorldCounts World::counts() const {
     for (const ContactManifold& m : found) c.contact_points += m.num_points;
   }
   c.islands = numIslands();
+  c.joints = impl_->joint_store.count();
   return c;
 }
 

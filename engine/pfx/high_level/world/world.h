@@ -13,6 +13,8 @@
 #include "pfx/base_level/rigid_body/rigid_state.h"
 #include "pfx/base_level/shape/collidable.h"
 #include "pfx/base_level/simd_level.h"
+#include "pfx/high_level/world/joint_def.h"
+#include "pfx/low_level/solver/joint_components.h"
 
 namespace pfx {
 
@@ -27,6 +29,7 @@ struct WorldDef {
   Pipeline pipeline = Pipeline::Stable;
   int substeps = 4;  // solver sub-steps a step, >= 1; error of contacts and joints falls with its square,
                      // cost of the solver rises in proportion
+  JointSolver joint_solver = JointSolver::Auto;
   SimdLevel simd = SimdLevel::Auto;  // widest kernels to use; the result is the same for all
   int workers = 1;                   // threads, the caller included; the result is the same for any number
   bool sleeping = false;             // islands at rest are put to sleep
@@ -56,14 +59,6 @@ struct BodyDef {
   uint32_t filter_target = 0xffffffffu;
 };
 
-// Names a body; stays invalid after the body was removed, even when its slot is used again. Zero is null.
-struct BodyId {
-  uint32_t index = 0;
-  uint32_t generation = 0;
-  explicit operator bool() const { return generation != 0; }
-  bool operator==(const BodyId&) const = default;
-};
-
 struct StageTime {
   const char* name;
   double milliseconds;  // in the last step
@@ -73,6 +68,7 @@ struct StageTime {
 struct IslandView {
   std::span<const uint32_t> bodies;    // body indices, ascending
   std::span<const uint32_t> contacts;  // indices into contactPairs()
+  uint32_t joints;                     // number of them
   bool asleep;
   float sleep_timer;  // s below the sleep velocity
 };
@@ -117,6 +113,27 @@ class World {
 
   // Moves a Keyframe body: it reaches `pose` at the end of the next step of dt seconds.
   void moveKeyframe(BodyId id, const Transform& pose, float dt);
+
+  // Adds a joint between two bodies where they stand. Throws std::invalid_argument, naming the joint, when a body does
+  // not exist, both are the same, or a parameter lies outside its range.
+  JointId addJoint(const JointDef& def);
+  void removeJoint(JointId id);
+  bool isValid(JointId id) const;
+  JointId jointId(uint32_t index) const;
+
+  // Arrays by joint index; a removed joint has no constrained axis.
+  std::span<const Joint> joints() const;
+  std::span<const JointLink> jointLinks() const;
+  std::string_view jointName(uint32_t index) const;
+
+  // Mutable access between steps, to change limits, motors, springs, or the kind. Wakes both bodies.
+  Joint& joint(JointId id);
+
+  // How far the joint is from what it holds.
+  JointError jointError(uint32_t index) const;
+
+  // Joints that broke in the last step; they are removed already.
+  std::span<const JointId> brokenJoints() const;
 
   // Pairs whose bounds met in the last step, by key; contact_id + k (k < count) indexes manifolds().
   std::span<const Pair> contactPairs() const;

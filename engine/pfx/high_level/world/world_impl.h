@@ -7,6 +7,7 @@
 #include "pfx/base_level/shape/large_mesh.h"
 #include "pfx/high_level/pipeline/stage.h"
 #include "pfx/high_level/world/body_store.h"
+#include "pfx/high_level/world/joint_store.h"
 #include "pfx/high_level/world/world.h"
 #include "pfx/low_level/broadphase/decompose.h"
 #include "pfx/low_level/broadphase/sweep.h"
@@ -14,6 +15,7 @@
 #include "pfx/low_level/collision/contact_store.h"
 #include "pfx/low_level/collision/detect.h"
 #include "pfx/low_level/island/islands.h"
+#include "pfx/low_level/solver/joint_components.h"
 #include "pfx/low_level/solver/soft_step.h"
 #include "pfx/low_level/task/task_manager.h"
 
@@ -62,8 +64,17 @@ struct World::Impl {
 
   // Islands, of awake bodies and of the pairs that touch
   Islands islands;
-  std::vector<Link> island_links;
+  std::vector<Link> island_links;  // of contacts, then of joints
   std::vector<uint32_t> island_link_pairs;  // index into pairs, by link
+
+  // Joints
+  JointStore joint_store;
+  std::vector<JointConstraint> joint_constraints;
+  JointComponents joint_components;
+  std::vector<JointComponent*> free_components;  // awake, without contacts, solved alone
+  JointStep joint_step;                          // the others
+  std::vector<uint8_t> jointed;                  // by body: part of an awake component
+  std::vector<JointId> broken_joints;            // in the last step
 
   // Solver
   std::vector<ContactConstraint> constraints;

@@ -83,15 +83,29 @@ void SoftStep::run(ContactKernels::Fn kernel, std::span<SolverBody> bodies, Task
   }
 }
 
+// Joints and contacts take turns, so that a direct solve sees what the contacts of its bodies did. One turn is enough
+// for either of them alone.
+void SoftStep::push(const ContactKernels& kernels, std::span<SolverBody> bodies, JointStep& joints,
+                    TaskManager& tasks) {
+  if (joints.empty()) return run(kernels.push, bodies, tasks);
+  const int turns = lanes_.empty() ? 1 : 2;
+  for (int turn = 0; turn < turns; ++turn) {
+    joints.push(bodies, tasks);
+    run(kernels.push, bodies, tasks);
+  }
+}
+
 void SoftStep::solve(std::span<SolverBody> bodies, std::span<BodyMotion> motions,
-                     const SoftStepParams& params, TaskManager& tasks) {
+                     const SoftStepParams& params, JointStep& joints, TaskManager& tasks) {
   const ContactKernels& kernels = contactKernels(params.simd);
   for (int i = 0; i < params.substeps; ++i) {
     forBodies(bodies, motions, tasks, [&](auto b, auto m) { integrateVelocities(b, m, params.h); });
     if (i == 0 && params.warm_start) run(kernels.warm_start, bodies, tasks);
-    run(kernels.push, bodies, tasks);
+    if (i == 0 && !joints.empty()) joints.warmStart(bodies, tasks);
+    push(kernels, bodies, joints, tasks);
     forBodies(bodies, motions, tasks, [&](auto b, auto m) { integratePositions(b, m, params.h); });
     run(kernels.relax, bodies, tasks);
+    if (!joints.empty()) joints.relax(bodies, tasks);
     if (i + 1 < params.substeps)
       forBodies(bodies, motions, tasks, [](auto b, auto m) { rememberImpulses(b, m); });
   }

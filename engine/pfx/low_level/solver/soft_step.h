@@ -17,6 +17,7 @@
 #include "pfx/low_level/island/colouring.h"
 #include "pfx/low_level/solver/contact_kernels.h"
 #include "pfx/low_level/solver/contact_setup.h"
+#include "pfx/low_level/solver/joint_step.h"
 #include "pfx/low_level/task/task_manager.h"
 
 namespace pfx {
@@ -42,7 +43,7 @@ class SoftStep {
 
   // Runs the sub-steps. dp and dq must be zero and identity; afterwards they are the motion of the step.
   void solve(std::span<SolverBody> bodies, std::span<BodyMotion> motions, const SoftStepParams& params,
-             TaskManager& tasks);
+             JointStep& joints, TaskManager& tasks);
 
   // Writes the impulses back to the manifolds.
   void store(TaskManager& tasks) const;
@@ -55,6 +56,7 @@ class SoftStep {
     bool serial;          // the lanes of different batches share bodies
   };
   void makeBatches(std::span<const ContactConstraint> constraints);
+  void push(const ContactKernels& kernels, std::span<SolverBody> bodies, JointStep& joints, TaskManager& tasks);
   void run(ContactKernels::Fn kernel, std::span<SolverBody> bodies, TaskManager& tasks);
 
   Colouring colouring_;

@@ -1,0 +1,82 @@
+// Joints of a world: who solves which component, and the step of components that nothing touches.
+#include <algorithm>
+
+#include "pfx/high_level/pipeline/stages.h"
+#include "pfx/high_level/world/world_impl.h"
+
+namespace pfx {
+namespace {
+
+bool isAwake(const RigidState& s) { return isDynamic(s.motion_type) && !s.asleep; }
+
+// Joints whose bodies the solver can move; the rest holds nothing.
+void listConstraints(World::Impl& w) {
+  w.joint_constraints.clear();
+  for (uint32_t i = 0; i < w.joint_store.joints.size(); ++i) {
+    const JointLink& link = w.joint_store.links[i];
+    if (!link.exists) continue;
+    const RigidState &a = w.store.states[link.body_a], &b = w.store.states[link.body_b];
+    if (!solvesConstraint(a.motion_type, b.motion_type)) continue;
+    w.joint_constraints.push_back(
+        {.joint = &w.joint_store.joints[i],
+         .body_a = link.body_a,
+         .body_b = link.body_b,
+         .writable_a = isDynamic(a.motion_type) && b.motion_type != MotionType::OneWay,
+         .writable_b = isDynamic(b.motion_type) && a.motion_type != MotionType::OneWay});
+  }
+}
+
+void assignSolver(World::Impl& w, JointComponent& c) {
+  const auto is = [&](auto&& condition) { return std::any_of(c.bodies.begin(), c.bodies.end(), condition); };
+  if (!is([&](uint32_t i) { return isAwake(w.store.states[i]); })) return;
+  const bool touched =
+      is([&](uint32_t i) { return isDynamic(w.store.states[i].motion_type) && w.solver_index[i] != kNoSolverBody; });
+  for (uint32_t i : c.bodies) w.jointed[i] = 1;
+  if (c.is_direct && !touched) {
+    w.free_components.push_back(&c);
+    return;
+  }
+  w.joint_step.add(c);
+  for (uint32_t i : c.bodies) w.solver_index[i] = 0;
+}
+
+}  // namespace
+
+namespace stage {
+
+void gatherJoints(World::Impl& w) {
+  listConstraints(w);
+  w.joint_components.update(w.joint_constraints, static_cast<uint32_t>(w.store.states.size()), w.def.joint_solver);
+  if (w.pairs.empty()) w.solver_index.assign(w.store.states.size(), kNoSolverBody);
+  w.jointed.assign(w.store.states.size(), 0);
+  // A body may belong to two components that are touched at different ends only when it is not movable.
+  for (JointComponent& c : w.joint_components.components()) assignSolver(w, c);
+  std::erase_if(w.free_bodies, [&](uint32_t i) { return w.jointed[i] != 0; });
+}
+
+void solveJointComponents(World::Impl& w) {
+  const DirectStepParams params{.h = static_cast<double>(w.dt) / w.def.substeps,
+                                .substeps = w.def.substeps,
+                                .warm_start = w.def.pipeline != Pipeline::Simple};
+  w.tasks.parallelFor(static_cast<uint32_t>(w.free_components.size()), 1, [&](TaskRange r) {
+    for (uint32_t i = r.begin; i < r.end; ++i) {
+      JointComponent& c = *w.free_components[i];
+      beginComponent(w, c, params);
+      c.direct.advance(w.store.states);
+      c.direct.end();
+    }
+  });
+}
+
+void breakJoints(World::Impl& w) {
+  w.broken_joints.clear();
+  for (uint32_t i = 0; i < w.joint_store.joints.size(); ++i) {
+    const Joint& j = w.joint_store.joints[i];
+    if (j.force.norm() <= w.joint_store.break_force[i] && j.torque.norm() <= w.joint_store.break_torque[i]) continue;
+    w.broken_joints.push_back({i, w.joint_store.generations[i]});
+  }
+  for (JointId id : w.broken_joints) w.joint_store.remove(id.index);
+}
+
+}  // namespace stage
+}  // namespace pfx

@@ -1,0 +1,47 @@
+// Components of the joint graph, and which solver each of them gets.
+//
+// A component is the set of joints that movable bodies link. Trees and graphs with few loops are solved directly; where
+// loops would fill the factor, joints become soft rows instead. Made anew only when joints change.
+#pragma once
+
+#include <deque>
+#include <span>
+#include <vector>
+
+#include "pfx/low_level/island/islands.h"
+#include "pfx/low_level/solver/direct_component.h"
+#include "pfx/low_level/solver/joint_constraint.h"
+
+namespace pfx {
+
+enum class JointSolver : uint8_t {
+  Auto,    // chosen by component
+  Direct,  // where the factor is not out of all proportion
+  Soft,
+};
+
+struct JointComponent {
+  bool is_direct = false;
+  DirectComponent direct;                // when is_direct
+  std::vector<JointConstraint> joints;
+  std::vector<uint32_t> bodies;          // indices of states, ascending, movable or not
+  std::vector<uint32_t> solver_index;    // by entry of bodies; while it is solved together with contacts
+  std::vector<BodyMotion> motions;       // by entry of bodies
+};
+
+class JointComponents {
+ public:
+  // Brings the components up to date. Returns whether they changed. num_bodies: of all states.
+  bool update(std::span<const JointConstraint> joints, uint32_t num_bodies, JointSolver solver);
+  std::deque<JointComponent>& components() { return components_; }
+
+ private:
+  void addComponent(std::span<const uint32_t> joints, JointSolver solver);
+
+  std::vector<JointConstraint> joints_;
+  std::vector<uint32_t> rows_;  // which axes each joint constrains, and how
+  Islands islands_;
+  std::deque<JointComponent> components_;
+};
+
+}  // namespace pfx
