@@ -32,6 +32,7 @@ TEST(MeshData, TheUnitBoxFacesOutwardsAndShowsEachEdgeFromBothSidesButNoDiagonal
   const MeshData box = makeUnitBox();
   ASSERT_EQ(box.vertices.size(), 36u);
   EXPECT_DOUBLE_EQ(signedVolume(box), 8.0);
+  EXPECT_EQ(box.bounds.halfExtent(), Vec3::Ones());
   EXPECT_EQ(featureEdges(box), 24);
   for (const MeshVertex& v : box.vertices) EXPECT_EQ(v.normal.dot(v.position), 1.0f);
 }

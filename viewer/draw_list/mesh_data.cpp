@@ -109,6 +109,7 @@ MeshData makeMesh(std::span<const Vec3> points, std::span<const uint32_t> indice
       mesh.vertices.push_back(
           {points[t.corner[k]], cornerNormal(t, t.corner[k], around[t.corner[k]], triangles, points), edge});
     }
+  for (const MeshVertex& v : mesh.vertices) mesh.bounds.extend(v.position);
   return mesh;
 }
 

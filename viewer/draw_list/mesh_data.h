@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pfx/base_level/math/vector.h"
+#include "pfx/base_level/shape/aabb.h"
 
 namespace viewer {
 
@@ -25,6 +26,7 @@ inline constexpr float kPlainEdge = 2.0f;
 
 struct MeshData {
   std::vector<MeshVertex> vertices;  // (3 x triangles)
+  pfx::Aabb bounds;                  // m, of the vertices
 };
 
 // Edges whose faces meet at more than 30 degrees are feature edges, and normals are smooth across the others.

@@ -19,7 +19,11 @@ void stackedPlot(const std::vector<StageCost>& costs, const std::vector<float>& 
   ImGui::Dummy(size);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(at, ImVec2(at.x + size.x, at.y + size.y), ImGui::GetColorU32(ImGuiCol_FrameBg), 4.0f);
-  const float most = totals.empty() ? 1.0f : std::max(*std::max_element(totals.begin(), totals.end()), 1e-4f);
+  // Scaled to what nearly all steps need: a single one that the system interrupted would flatten all others.
+  std::vector<float> sorted = totals;
+  std::sort(sorted.begin(), sorted.end());
+  const float most = std::max(1.2f * sorted[sorted.size() * 95 / 100], 1e-4f);
+  draw.PushClipRect(at, ImVec2(at.x + size.x, at.y + size.y), true);
   const float bar = size.x / float(Session::kRecent);
   for (size_t step = 0; step < totals.size(); ++step) {
     const float x = at.x + size.x - bar * float(totals.size() - step);
@@ -33,6 +37,7 @@ void stackedPlot(const std::vector<StageCost>& costs, const std::vector<float>& 
       y -= height;
     }
   }
+  draw.PopClipRect();
   char text[32];
   std::snprintf(text, sizeof text, "%.2f ms", double(most));
   draw.AddText(ImVec2(at.x + 5.0f, at.y + 3.0f), ImGui::GetColorU32(ImGuiCol_Text), text);

@@ -10,6 +10,7 @@ void helpPanel(const PanelArea& screen, bool& open) {
   const float width = std::min(screen.width - 2.0f * unit, 52.0f * unit),
               height = std::min(screen.height - 2.0f * unit, 34.0f * unit);
   ImGui::SetNextWindowFocus();
+  ImGui::SetNextWindowBgAlpha(0.97f);
   ImGui::SetNextWindowPos(ImVec2(0.5f * (screen.width - width), 0.5f * (screen.height - height)));
   ImGui::SetNextWindowSize(ImVec2(width, height));
   ImGui::Begin("Keys and mouse", &open,
