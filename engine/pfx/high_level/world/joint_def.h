@@ -50,6 +50,12 @@ struct JointDef {
   float break_torque = std::numeric_limits<float>::infinity();  // N m
 };
 
+// What a joint bears before it breaks.
+struct JointStrength {
+  float force;   // N
+  float torque;  // N m
+};
+
 // A joint's place in the world; `exists` is false for slots that are free.
 struct JointLink {
   uint32_t body_a = 0, body_b = 0;
