@@ -160,6 +160,9 @@ JointId World::jointId(uint32_t index) const { return {index, impl_->joint_store
 std::span<const Joint> World::joints() const { return impl_->joint_store.joints; }
 std::span<const JointLink> World::jointLinks() const { return impl_->joint_store.links; }
 std::string_view World::jointName(uint32_t index) const { return impl_->joint_store.names.at(index); }
+JointStrength World::jointStrength(uint32_t index) const {
+  return {impl_->joint_store.break_force.at(index), impl_->joint_store.break_torque.at(index)};
+}
 std::span<const JointId> World::brokenJoints() const { return impl_->broken_joints; }
 
 Joint& World::joint(JointId id) {

@@ -1,6 +1,7 @@
 // The world: owns the bodies and the buffers of every stage, and steps them.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
@@ -125,6 +126,7 @@ class World {
   std::span<const Joint> joints() const;
   std::span<const JointLink> jointLinks() const;
   std::string_view jointName(uint32_t index) const;
+  JointStrength jointStrength(uint32_t index) const;
 
   // Mutable access between steps, to change limits, motors, springs, or the kind. Wakes both bodies.
   Joint& joint(JointId id);
@@ -145,6 +147,14 @@ class World {
   WorldCounts counts() const;
   std::span<const StageTime> stageTimes() const;  // of the last step, in order
   std::vector<std::string_view> stages() const;   // that this world's content makes it run, in order
+  // Everything that the world needs to continue to the bit, meshes included, as portable bytes (snapshot.h). snapshot()
+  // returns how many it wrote. restore() goes back to them, or takes over those of another world; the number of
+  // workers and the SIMD level stay, ids and the addresses of meshes stay valid. Both throw SnapshotError, snapshot()
+  // when the buffer is too short or a mesh is not kept by the world; after an error the world is as it was.
+  size_t snapshotBytes() const;
+  size_t snapshot(std::span<std::byte> out) const;
+  void restore(std::span<const std::byte> in);
+
   uint64_t stateHash() const;                     // of pose and velocity of all bodies, bit-exact
 
   struct Impl;  // the stages of high_level/pipeline work on it
