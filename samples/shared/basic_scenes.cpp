@@ -89,7 +89,7 @@ std::vector<SceneEntry> basicScenes(std::string_view sample, const WorldDef& wor
        .name = "landscape",
        .shows = "the same shapes on a mesh of 128 triangles: they follow its slopes and never catch on an "
                 "inner edge",
-       .camera = {.target = Vec3(0.0f, 0.0f, 0.0f), .distance = 30.0f, .yaw_deg = 28.0f, .pitch_deg = 24.0f},
+       .camera = {.target = Vec3(0.0f, 1.5f, 0.0f), .distance = 36.0f, .yaw_deg = 28.0f, .pitch_deg = 24.0f},
        .frames = {45, 100, 400},
        .world = world,
        .make = make<Landscape>},
