@@ -5,7 +5,7 @@
 namespace samples {
 namespace {
 
-constexpr std::array kSamples = {simpleScenes, stableScenes};
+constexpr std::array kSamples = {simpleScenes, stableScenes, jointScenes};
 
 std::vector<SceneEntry> allScenes() {
   std::vector<SceneEntry> all;

@@ -9,5 +9,6 @@ namespace samples {
 
 std::vector<SceneEntry> simpleScenes();  // 1_simple
 std::vector<SceneEntry> stableScenes();  // 2_stable
+std::vector<SceneEntry> jointScenes();   // 6_joint
 
 }  // namespace samples

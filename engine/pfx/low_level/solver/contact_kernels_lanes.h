@@ -2,74 +2,10 @@
 // contact_kernels_avx2.cpp.
 #pragma once
 
-#include "pfx/base_level/math/lanes.h"
+#include "pfx/low_level/solver/body_lanes.h"
 #include "pfx/low_level/solver/contact_kernels.h"
 
 namespace pfx::PFX_LANES {
-
-struct Velocity {
-  V8 v, w;
-};
-struct Mass {
-  F8 inv_mass;
-  S8 inv_inertia;
-};
-struct Motion {  // since the start of the step
-  V8 dp, u;
-  F8 q;
-};
-
-// One side of a batch: which bodies, and what of them the kernels use.
-struct Side {
-  SolverBody* bodies[8];
-  Velocity velocity;
-  Mass mass;
-};
-
-inline F8 laneMask(uint32_t bits) {
-  alignas(32) uint32_t m[8];
-  for (int i = 0; i < 8; ++i) m[i] = bits >> i & 1 ? 0xffffffffu : 0u;
-  return F8::load(reinterpret_cast<const float*>(m));
-}
-
-inline Side loadSide(SolverBody* bodies, const int32_t (&index)[8], uint32_t writable) {
-  Side s;
-  const float* rows[8];
-  for (int i = 0; i < 8; ++i) {
-    s.bodies[i] = bodies + index[i];
-    rows[i] = s.bodies[i]->v;
-  }
-  F8 t[8];
-  loadTransposed(rows, t);
-  s.velocity = {{t[0], t[1], t[2]}, {t[4], t[5], t[6]}};
-  s.mass.inv_mass = t[3];
-  for (int i = 0; i < 8; ++i) rows[i] = s.bodies[i]->inv_inertia;
-  loadTransposed(rows, t);
-  s.mass.inv_inertia = {t[0], t[1], t[2], t[3], t[4], t[5]};
-  if (writable != 0xffu) {
-    const F8 m = laneMask(writable);
-    s.mass.inv_mass = s.mass.inv_mass & m;
-    S8& i = s.mass.inv_inertia;
-    i = {i.xx & m, i.xy & m, i.xz & m, i.yy & m, i.yz & m, i.zz & m};
-  }
-  return s;
-}
-
-inline Motion loadMotion(const Side& s) {
-  const float* rows[8];
-  for (int i = 0; i < 8; ++i) rows[i] = s.bodies[i]->dp;
-  F8 t[8];
-  loadTransposed(rows, t);
-  return {{t[0], t[1], t[2]}, {t[4], t[5], t[6]}, t[7]};
-}
-
-inline void storeSide(const Side& s, uint32_t writable) {
-  float* rows[8];
-  for (int i = 0; i < 8; ++i) rows[i] = writable >> i & 1 ? s.bodies[i]->v : nullptr;
-  const Velocity& u = s.velocity;
-  const F8 t[8] = {u.v.x, u.v.y, u.v.z, s.mass.inv_mass, u.w.x, u.w.y, u.w.z, F8::zero()};
-  storeTransposed(t, rows);
-}
 
 // Writes back only the velocity of writable lanes; a read-only lane of a one-way pair keeps its true mass,
 // because its row is not stored at all.
@@ -99,12 +35,6 @@ inline V8 relativeVelocity(const Batch& c, const V8& arm_a, const V8& arm_b) {
 // Where the friction of a point acts: pulled in towards the centre, so that a patch resists spin like a
 // spread pressure and not like its corners.
 inline V8 frictionArm(const V8& center, const V8& arm, F8 spread) { return center + spread * (arm - center); }
-
-// How far the body's rotation has moved the end of `arm` since the start of the step.
-inline V8 armShift(const Motion& m, const V8& arm) {
-  const V8 t = F8::set(2.0f) * cross(m.u, arm);
-  return m.q * t + cross(m.u, t);
-}
 
 // Softness of a row, from its two kinds.
 inline void storeSoftness(ContactRows& r, F8 both_move, const ContactSolveParams& params) {
