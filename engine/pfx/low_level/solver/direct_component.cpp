@@ -20,8 +20,8 @@ constexpr double kClosedSlop = 1e-6;
 // From the first ratio of h^2 |K| to the inertia on (see stiffnessRatio), a component takes damped sub-steps with the
 // geometric stiffness of those bodies for which it is more than a tenth of the inertia, until it falls below the second.
 // Below, leapfrog resolves every vibration and conserves energy.
-constexpr double kUnresolved = 4.0;
-constexpr double kResolvedAgain = 2.0;
+constexpr double kUnresolved = 1.0;
+constexpr double kResolvedAgain = 0.05;
 constexpr double kStiffnessShare = 0.1;
 
 double dot6(const double (&a)[6], const double (&b)[6]) {
