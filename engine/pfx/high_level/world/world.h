@@ -15,7 +15,7 @@
 #include "pfx/base_level/simd_level.h"
 #include "pfx/high_level/world/joint_def.h"
 #include "pfx/low_level/ray/ray_cast.h"
-#include "pfx/low_level/solver/joint_components.h"
+#include "pfx/low_level/solver/joint_constraint.h"
 
 namespace pfx {
 

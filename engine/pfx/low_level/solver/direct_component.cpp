@@ -17,6 +17,13 @@ constexpr double kOpenRegularization = 1e-9;
 constexpr double kClosedRegularization = 1e-6;
 constexpr double kClosedSlop = 1e-6;
 
+// From the first ratio of h^2 |K| to the inertia on (see stiffnessRatio), a component takes damped sub-steps with the
+// geometric stiffness of those bodies for which it is more than a tenth of the inertia, until it falls below the second.
+// Below, leapfrog resolves every vibration and conserves energy.
+constexpr double kUnresolved = 1.0;
+constexpr double kResolvedAgain = 0.05;
+constexpr double kStiffnessShare = 0.1;
+
 double dot6(const double (&a)[6], const double (&b)[6]) {
   return (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) + (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
 }
@@ -118,16 +125,16 @@ void DirectComponent::addStiffness(const DirectJoint& j) {
 void DirectComponent::linearize(const DirectSubstep& s) {
   for (DirectBody& b : bodies_) {
     b.stiffness.setZero();
-    updateInverseInertia(b, s.h);
+    updateInverseInertia(b, s.h, false);
   }
   for (DirectJoint& j : joints_) linearizeRows(j, bodies_, s);
   for (const DirectJoint& j : joints_) addStiffness(j);
-  for (DirectBody& b : bodies_) updateInverseInertia(b, s.h);
+  double ratio = 0.0;
+  for (const DirectBody& b : bodies_) ratio = std::max(ratio, stiffnessRatio(b, s.h));
+  stiff_ = ratio > (stiff_ ? kResolvedAgain : kUnresolved);
+  if (!stiff_) return;
+  for (DirectBody& b : bodies_) updateInverseInertia(b, s.h, stiffnessRatio(b, s.h) > kStiffnessShare);
   for (DirectJoint& j : joints_) updateResponses(j, bodies_);
-}
-
-bool DirectComponent::isStiffened() const {
-  return std::any_of(bodies_.begin(), bodies_.end(), [](const DirectBody& b) { return b.stiffened; });
 }
 
 void DirectComponent::factor() {
@@ -266,7 +273,7 @@ void DirectComponent::advance(std::span<RigidState> states) {
   for (int i = 0; i < params_.substeps; ++i) {
     DirectSubstep s{h, i == 0 ? 0.5 : 1.0, true, false, closed_ ? kClosedSlop : 0.0};
     linearize(s);
-    s.linear = isStiffened();
+    s.linear = stiff_;
     linearized_ = false;
     for (DirectBody& b : bodies_) kick(b, h, s.part);
     startFrom(s.part);
@@ -322,7 +329,7 @@ void DirectComponent::applyWarmStart(std::span<SolverBody> bodies, std::span<con
 }
 
 void DirectComponent::solvePositions(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index) {
-  const DirectSubstep s{params_.h, 1.0, false, isStiffened(), closed_ ? kClosedSlop : 0.0};
+  const DirectSubstep s{params_.h, 1.0, false, stiff_, closed_ ? kClosedSlop : 0.0};
   load(bodies, solver_index);
   holdPositions(s);
   store(bodies, solver_index);

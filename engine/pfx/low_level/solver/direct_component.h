@@ -53,7 +53,6 @@ class DirectComponent {
  private:
   void linearize(const DirectSubstep& s);
   void addStiffness(const DirectJoint& j);
-  bool isStiffened() const;
   void factor();
   void solve();
   double fillResiduals(const DirectSubstep& s, bool velocity_only);
@@ -76,6 +75,7 @@ class DirectComponent {
   DirectStructure structure_;
   int block_ = 3;          // rows of a block: 3, 5 or 6
   bool closed_ = false;    // loops, or held at several places: rows may depend on each other
+  bool stiff_ = false;       // sub-steps are damped, see stiffnessRatio
   bool linearized_ = false;  // at the poses of the bodies, factor included
   std::vector<uint32_t> position_;  // in the order of elimination, by joint
   std::vector<double> diagonal_, off_diagonal_, scratch_, x_;
