@@ -89,7 +89,8 @@ void stopAtImpacts(World::Impl& w) {
     const float size = std::min(w.store.size[pair.body_a], w.store.size[pair.body_b]);
     const Impact impact = firstTouch(w, pair, kStop * size);
     const auto stop = [&](uint32_t body, uint32_t by) {
-      if (fast(body) && impact.fraction < w.stops[body].fraction)
+      const bool can_stop = fast(body) && isDynamic(w.store.states[body].motion_type);
+      if (can_stop && impact.fraction < w.stops[body].fraction)
         w.stops[body] = {impact.fraction, impact.point, by};
     };
     stop(pair.body_a, pair.body_b);
@@ -97,8 +98,7 @@ void stopAtImpacts(World::Impl& w) {
   }
   w.stopped_poses.clear();
   for (uint32_t i : w.moving) {
-    const RigidState& s = w.store.states[i];
-    if (!w.is_fast[i] || w.stops[i].fraction >= 1.0f || !isDynamic(s.motion_type)) continue;
+    if (w.stops[i].fraction >= 1.0f) continue;
     const Transform stopped = sweepOf(w, i).at(w.stops[i].fraction);
     w.stopped_poses.push_back(
         {i, {stopped.position + carriedBy(w, w.stops[i]), stopped.orientation.normalized()}});
