@@ -21,6 +21,8 @@ struct DirectBody {
   Mat3d stiffness = Mat3d::Zero();  // N m/rad, change of torque as the body turns under the joints' forces
   bool spherical = true;
   bool dynamic = false;
+  Vec3d joint_velocity = Vec3d::Zero();  // m/s, that the joints have added in this sub-step, beside contacts
+  Vec3d joint_momentum = Vec3d::Zero();  // N m s, world axes, likewise
   Vec3d acceleration = Vec3d::Zero();  // m/s^2
   Vec3d torque = Vec3d::Zero();        // N m
   double linear_decay = 1.0;           // of the velocity, a sub-step

@@ -39,9 +39,9 @@ void JointStep::prepare(std::span<const RigidState> states, std::span<const uint
   if (!soft_.empty()) soft_.prepare(states, is_dynamic, bodies, params, tasks);
 }
 
-void JointStep::warmStart(std::span<SolverBody> bodies, TaskManager& tasks) {
-  if (!soft_.empty()) soft_.warmStart(bodies, tasks);
-  forComponents(direct_, tasks, [&](JointComponent& c) { c.direct.applyWarmStart(bodies, c.solver_index); });
+void JointStep::start(std::span<SolverBody> bodies, bool first, TaskManager& tasks) {
+  if (first && !soft_.empty()) soft_.warmStart(bodies, tasks);
+  forComponents(direct_, tasks, [&](JointComponent& c) { c.direct.startSubstep(bodies, c.solver_index); });
 }
 
 void JointStep::push(std::span<SolverBody> bodies, TaskManager& tasks) {

@@ -22,8 +22,8 @@ class JointStep {
   void prepare(std::span<const RigidState> states, std::span<const uint8_t> is_dynamic,
                std::span<const SolverBody> bodies, const SoftJointParams& params, TaskManager& tasks);
 
-  // For each sub-step: [warm start] -> push, as often as contacts are pushed -> (motion) -> relax.
-  void warmStart(std::span<SolverBody> bodies, TaskManager& tasks);
+  // For each sub-step: start -> push, as often as contacts are pushed -> (motion) -> relax.
+  void start(std::span<SolverBody> bodies, bool first, TaskManager& tasks);
   void push(std::span<SolverBody> bodies, TaskManager& tasks);
   void relax(std::span<SolverBody> bodies, TaskManager& tasks);
 
