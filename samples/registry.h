@@ -11,5 +11,6 @@ std::vector<SceneEntry> simpleScenes();  // 1_simple
 std::vector<SceneEntry> stableScenes();  // 2_stable
 std::vector<SceneEntry> sleepScenes();       // 3_sleep
 std::vector<SceneEntry> motionTypeScenes();  // 4_motion_type
+std::vector<SceneEntry> jointScenes();       // 6_joint
 
 }  // namespace samples

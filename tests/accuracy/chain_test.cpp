@@ -1,7 +1,7 @@
 // ACC-08, ACC-09 and ACC-04: heavy chain, catenary, heavy top, at 60 Hz and 4 sub-steps.
 #include <gtest/gtest.h>
 
-#include "tests/accuracy/joint_cases.h"
+#include "tests/support/joint_cases.h"
 
 namespace pfx_test {
 namespace {

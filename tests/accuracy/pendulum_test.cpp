@@ -1,7 +1,7 @@
 // ACC-05 to ACC-07: pendulums against elliptic functions and tables, at 60 Hz and 4 sub-steps.
 #include <gtest/gtest.h>
 
-#include "tests/accuracy/joint_cases.h"
+#include "tests/support/joint_cases.h"
 
 namespace pfx_test {
 namespace {

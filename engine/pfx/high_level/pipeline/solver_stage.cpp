@@ -78,7 +78,8 @@ void flyFree(World::Impl& w) {
 }
 
 void beginComponent(World::Impl& w, JointComponent& c, const DirectStepParams& params) {
-  for (size_t i = 0; i < c.bodies.size(); ++i) c.motions[i] = makeMotion(w, c.bodies[i], static_cast<float>(params.h));
+  for (size_t i = 0; i < c.bodies.size(); ++i)
+    c.motions[i] = makeMotion(w, c.bodies[i], static_cast<float>(params.h));
   c.direct.begin(w.store.states, w.store.bodies, c.motions, params);
 }
 
@@ -109,8 +110,11 @@ void setUpSolver(World::Impl& w) {
   });
   for (JointComponent* c : w.joint_step.components()) {
     for (size_t i = 0; i < c->bodies.size(); ++i) c->solver_index[i] = w.solver_index[c->bodies[i]];
-    beginComponent(w, *c, {params.h, params.substeps, params.warm_start});
+    if (c->is_direct) beginComponent(w, *c, {params.h, params.substeps, params.warm_start});
   }
+  if (!w.joint_step.empty())
+    w.joint_step.prepare(w.store.states, w.solver_dynamic, w.solver_bodies,
+                         {params.h, params.substeps, params.warm_start, params.simd}, w.tasks);
   w.soft_step.prepare(w.constraints, w.solver_dynamic, w.solver_bodies, params, w.tasks);
   for (SolverBody& b : w.solver_bodies) {
     const SolverBody at_rest;
@@ -120,7 +124,7 @@ void setUpSolver(World::Impl& w) {
 
 void solve(World::Impl& w) {
   w.soft_step.solve(w.solver_bodies, w.motions, solveParams(w), w.joint_step, w.tasks);
-  w.joint_step.end();
+  if (!w.joint_step.empty()) w.joint_step.end(w.store.states, w.tasks);
 }
 
 void writeBack(World::Impl& w) {

@@ -43,7 +43,8 @@ class DirectComponent {
   void advance(std::span<RigidState> states);
 
   // One part of a sub-step together with contacts. solver_index: solver body by local body.
-  void applyWarmStart(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index);
+  // startSubstep puts the joints' impulses of the last sub-step, which the bodies remember, along today's levers.
+  void startSubstep(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index);
   void solvePositions(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index);
   void solveVelocities(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index);
 
@@ -53,7 +54,6 @@ class DirectComponent {
  private:
   void linearize(const DirectSubstep& s);
   void addStiffness(const DirectJoint& j);
-  bool isStiffened() const;
   void factor();
   void solve();
   double fillResiduals(const DirectSubstep& s, bool velocity_only);
@@ -66,7 +66,7 @@ class DirectComponent {
   void rememberForces(double part);
   void sumImpulses();
   void load(std::span<const SolverBody> bodies, std::span<const uint32_t> solver_index);
-  void store(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index) const;
+  void store(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index);
 
   DirectStepParams params_;
   std::vector<DirectJoint> joints_;
@@ -76,6 +76,8 @@ class DirectComponent {
   DirectStructure structure_;
   int block_ = 3;          // rows of a block: 3, 5 or 6
   bool closed_ = false;    // loops, or held at several places: rows may depend on each other
+  bool stiff_ = false;       // sub-steps are damped, see stiffnessRatio
+  bool started_ = false;     // a sub-step of this step has begun
   bool linearized_ = false;  // at the poses of the bodies, factor included
   std::vector<uint32_t> position_;  // in the order of elimination, by joint
   std::vector<double> diagonal_, off_diagonal_, scratch_, x_;

@@ -180,8 +180,10 @@ void chooseRows(DirectJoint& j) {
     r.has_drive = hasDrive(c);
     enter(j, r, isFixed(c) ? RowState::Fixed : restState(r));
   }
-  const double arms = static_cast<double>(j.joint->anchor_a.norm()) + static_cast<double>(j.joint->anchor_b.norm());
-  j.length = std::max(arms, 1e-6);
+  // The arm of a fixed body may be as long as the world is wide, and says nothing about the joint.
+  const double arm_a = j.moves[0] ? j.joint->anchor_a.norm() : 0.0f;
+  const double arm_b = j.moves[1] ? j.joint->anchor_b.norm() : 0.0f;
+  j.length = std::max(arm_a + arm_b, 1e-6);
 }
 
 void beginRows(DirectJoint& j, int substeps, bool warm_start) {

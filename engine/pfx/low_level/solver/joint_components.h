@@ -14,12 +14,6 @@
 
 namespace pfx {
 
-enum class JointSolver : uint8_t {
-  Auto,    // chosen by component
-  Direct,  // where the factor is not out of all proportion
-  Soft,
-};
-
 struct JointComponent {
   bool is_direct = false;
   DirectComponent direct;                // when is_direct
