@@ -177,7 +177,7 @@ void checkBodies(const Reader& r, const World::Impl& w) {
     r.require(size == n, "the arrays differ in length");
   r.require(areBelow(s.free_slots, n) && areBelow(w.changed_bodies, n), "a body is not there");
   r.require(w.reach.size() <= n && w.next_sleeper.size() <= n, "the arrays differ in length");
-  for (const KeyframeTarget& k : w.keyframes) r.require(k.body < n, "a key frame moves a body that is not there");
+  for (const BodyPose& k : w.keyframes) r.require(k.body < n, "a key frame moves a body that is not there");
   for (uint32_t i = 0; i < n; ++i) {
     r.require(s.states[i].body_id == i, "a body has the wrong number");
     r.require(!s.exists(i) || !s.shapes[i].empty(), "a body has no shape");
@@ -287,6 +287,7 @@ void takeOver(World::Impl& w, World::Impl& from, std::span<const Leaf> leaves) {
   w.free_components.clear();
   w.joint_step.clear();
   w.joint_components = JointComponents{};
+  w.tree_is_current = false;
   w.times.clear();
 }
 

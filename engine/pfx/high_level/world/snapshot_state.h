@@ -52,7 +52,7 @@ void io(A& a, ContactReach& r) {
 }
 
 template <class A>
-void io(A& a, KeyframeTarget& k) {
+void io(A& a, BodyPose& k) {
   io(a, k.body), io(a, k.pose);
 }
 
