@@ -25,7 +25,7 @@ struct BasicJoints final : Scene {
     addPair(world, "swing twist", 1, level, SwingTwistJointParams{.anchor_point = at, .twist_axis = z});
     addPair(world, "hinge", 2, level,
             HingeJointParams{.anchor_point = at, .axis = x, .lower_angle = -0.5f, .upper_angle = 0.7f});
-    const Quat downhill(Eigen::AngleAxisf(0.5f, x));
+    const Quat downhill = rotation(x, 0.5f);
     addPair(world, "slider", 3, downhill,
             SliderJointParams{.anchor_point = downhill * at,
                               .direction = downhill * z,
@@ -73,7 +73,7 @@ struct Ragdolls final : Scene {
       const float angle = 0.35f * static_cast<float>(i - 2);
       addRagdoll(world, "ragdoll " + std::to_string(i),
                  {.position = Vec3(3.4f * static_cast<float>(i - 2), 5.2f + 0.5f * static_cast<float>(i), -3.6f),
-                  .orientation = Quat(Eigen::AngleAxisf(angle, Vec3::UnitX()))});
+                  .orientation = rotation(Vec3::UnitX(), angle)});
     }
   }
 };
@@ -93,7 +93,7 @@ struct PulleyMachine final : Scene {
 
  private:
   static void addPulley(World& world, BodyId ground, float side) {
-    const Quat along_z(Eigen::AngleAxisf(-0.5f * kPi, Vec3::UnitY()));
+    const Quat along_z = rotation(Vec3::UnitY(), -0.5f * kPi);
     const Vec3 center(side * kPulleyX, kPulleyY, 0);
     const auto disc = [&](float z) {
       return shape(Cylinder{0.05f, 0.95f}, {.position = Vec3(0, 0, z), .orientation = along_z});

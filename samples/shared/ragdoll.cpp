@@ -1,6 +1,8 @@
 #include "samples/shared/ragdoll.h"
 
+#include "pfx/base_level/math/trig.h"
 #include "pfx/base_level/rigid_body/mass_properties.h"
+#include "samples/shared/builders.h"
 
 namespace samples {
 namespace {
@@ -54,7 +56,7 @@ struct Builder {
 };
 
 Transform upright(const Vec3& at) {
-  return {.position = at, .orientation = Quat(Eigen::AngleAxisf(0.5f * 3.14159265f, Vec3::UnitZ()))};
+  return {.position = at, .orientation = rotation(Vec3::UnitZ(), 0.5f * kPi)};
 }
 
 void addTrunk(Builder& b) {

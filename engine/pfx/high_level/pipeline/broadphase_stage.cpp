@@ -65,6 +65,9 @@ void dropJointedPairs(World::Impl& w, std::vector<Pair>& pairs) {
 void begin(World::Impl& w) {
   w.refreshActive();
   w.constraints.clear();
+  for (uint32_t i : w.solved) w.solver_index[i] = kNoSolverBody;
+  w.solved.clear();
+  w.solver_index.resize(w.store.states.size(), kNoSolverBody);
   w.joint_step.clear();
   w.free_components.clear();
   w.free_bodies = w.active;

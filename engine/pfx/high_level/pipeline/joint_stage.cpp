@@ -38,7 +38,7 @@ void assignSolver(World::Impl& w, JointComponent& c) {
     return;
   }
   w.joint_step.add(c);
-  for (uint32_t i : c.bodies) w.solver_index[i] = 0;
+  for (uint32_t i : c.bodies) w.needSolverBody(i);
 }
 
 }  // namespace
@@ -49,7 +49,6 @@ void gatherJoints(World::Impl& w) {
   listConstraints(w);
   w.joint_components.update(w.joint_constraints, static_cast<uint32_t>(w.store.states.size()),
                             w.def.joint_solver);
-  if (w.pairs.empty()) w.solver_index.assign(w.store.states.size(), kNoSolverBody);
   w.jointed.assign(w.store.states.size(), 0);
   // A body may belong to two components that are touched at different ends only when it is not movable.
   for (JointComponent& c : w.joint_components.components()) assignSolver(w, c);

@@ -5,7 +5,15 @@
 #include "pfx/high_level/pipeline/stages.h"
 #include "pfx/high_level/world/world_impl.h"
 
-namespace pfx::stage {
+namespace pfx {
+
+void World::Impl::needSolverBody(uint32_t body) {
+  if (solver_index[body] != kNoSolverBody) return;
+  solver_index[body] = 0;  // the set-up numbers them
+  solved.push_back(body);
+}
+
+namespace stage {
 namespace {
 
 constexpr uint32_t kBodyGrain = 128;
@@ -84,12 +92,7 @@ void beginComponent(World::Impl& w, JointComponent& c, const DirectStepParams& p
 }
 
 void setUpSolver(World::Impl& w) {
-  w.solved.clear();
-  for (uint32_t i = 0; i < w.solver_index.size(); ++i) {
-    if (w.solver_index[i] == kNoSolverBody) continue;
-    w.solver_index[i] = static_cast<uint32_t>(w.solved.size());
-    w.solved.push_back(i);
-  }
+  for (uint32_t k = 0; k < w.solved.size(); ++k) w.solver_index[w.solved[k]] = k;
   for (ContactConstraint& c : w.constraints) {
     c.solver_a = w.solver_index[c.solver_a];
     c.solver_b = w.solver_index[c.solver_b];
@@ -143,4 +146,5 @@ void writeBack(World::Impl& w) {
 
 void storeImpulses(World::Impl& w) { w.soft_step.store(w.tasks); }
 
-}  // namespace pfx::stage
+}  // namespace stage
+}  // namespace pfx

@@ -92,7 +92,7 @@ struct World::Impl {
 
   // Solver
   std::vector<ContactConstraint> constraints;
-  std::vector<uint32_t> solver_index;  // by body; kNoSolverBody when it has none
+  std::vector<uint32_t> solver_index;  // by body; kNoSolverBody when it has none, as between steps
   std::vector<uint32_t> solved;        // body of each solver body
   std::vector<uint32_t> free_bodies;   // active bodies without a constraint
   std::vector<SolverBody> solver_bodies;
@@ -106,6 +106,7 @@ struct World::Impl {
   void refreshActive();
   void linkIslands();
   QueryScene queryScene();             // for queries about the bodies as they are now
+  void needSolverBody(uint32_t body);  // the solver will work on it
   void wake(uint32_t body);            // and its whole island
   void wakeNeighbours(uint32_t body);  // everything that it touches
   void revivePairs();
