@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "pfx/high_level/pipeline/stages.h"
 #include "pfx/high_level/world/snapshot_state.h"
 #include "pfx/util/state_hash/state_hash.h"
 
@@ -24,10 +25,25 @@ struct Leaf {
   Aabb bounds;
 };
 
+// What a directly solved joint remembers of a row besides its force.
+struct RowMemory {
+  RowState state = RowState::Off;
+  bool held = false;
+  uint8_t side = 1;  // of the bound that it is clamped to, plus one
+};
+
 struct Content {
   World::Impl& world;
   std::vector<Leaf> leaves;
+  std::vector<RowMemory> rows;  // in the order of components, joints and rows
 };
+
+template <class Fn>
+void forEachRow(World::Impl& w, Fn&& fn) {
+  for (JointComponent& c : w.joint_components.components())
+    for (DirectJoint& j : c.direct.joints())
+      for (int k = 0; k < j.num_rows; ++k) fn(j.row[k]);
+}
 
 template <class A>
 void ioWorld(A& a, Content& c) {
@@ -73,6 +89,11 @@ void ioContacts(A& a, Content& c) {
   ioPairs(a, c.world.pairs, c.world.contacts);
   ioPairs(a, c.world.sleeping_pairs, c.world.contacts);
   ioList(a, c.leaves, [](A& archive, Leaf& leaf) { io(archive, leaf.body), io(archive, leaf.bounds); });
+  ioList(a, c.rows, [](A& archive, RowMemory& row) {
+    ioEnum(archive, row.state, RowState::Drive);
+    io(archive, row.held), io(archive, row.side);
+    if constexpr (A::kReads) archive.require(row.side <= 2, "a row of a joint is clamped to no side");
+  });
 }
 
 template <class A>
@@ -97,9 +118,12 @@ uint32_t tagOf(const char* tag) {
 
 // The archives change nothing when they count or write.
 Content contentOf(const World::Impl& world) {
-  Content c{const_cast<World::Impl&>(world), {}};
+  Content c{const_cast<World::Impl&>(world), {}, {}};
   for (uint32_t i = 0; i < world.store.states.size(); ++i)
     if (world.tree.contains(i)) c.leaves.push_back({i, world.tree.bounds(i)});
+  forEachRow(c.world, [&](const DirectRow& r) {
+    c.rows.push_back({r.state, r.held, static_cast<uint8_t>(r.clamped + 1)});
+  });
   return c;
 }
 
@@ -206,11 +230,17 @@ void checkContacts(const Reader& r, const World::Impl& w, std::span<const Leaf> 
   for (const Leaf& leaf : leaves) r.require(leaf.body < n, "the broad phase has a body that is not there");
 }
 
+// What of a snapshot belongs into stages that a restored world makes anew.
+struct Memory {
+  std::vector<Leaf> leaves;
+  std::vector<RowMemory> rows;
+};
+
 // A world without threads, for reading into.
-std::unique_ptr<World::Impl> readAll(std::span<const std::byte> in, std::vector<Leaf>& leaves) {
+std::unique_ptr<World::Impl> readAll(std::span<const std::byte> in, Memory& memory) {
   const auto data = checkedSections(in);
   auto world = std::make_unique<World::Impl>(WorldDef{});
-  Content content{*world, {}};
+  Content content{*world, {}, {}};
   for (uint32_t i = 0; i < kNumSections; ++i) {
     Reader r(data[i].bytes, data[i].begin, kSections<Reader>[i].name);
     kSections<Reader>[i].run(r, content);
@@ -219,7 +249,7 @@ std::unique_ptr<World::Impl> readAll(std::span<const std::byte> in, std::vector<
     if (i == 3) checkJoints(r, *world);
     if (i == 4) checkContacts(r, *world, content.leaves);
   }
-  leaves = std::move(content.leaves);
+  memory = {std::move(content.leaves), std::move(content.rows)};
   return world;
 }
 
@@ -253,7 +283,26 @@ void restTree(World::Impl& w, std::span<const Leaf> leaves) {
   w.tree.rest(proxies);
 }
 
-void takeOver(World::Impl& w, World::Impl& from, std::span<const Leaf> leaves) {
+// Makes the components of joints as the next step would, and gives their rows what they knew.
+void rememberRows(World::Impl& w, std::span<const RowMemory> rows) {
+  if (rows.empty()) return;
+  w.solver_index.assign(w.store.states.size(), kNoSolverBody);
+  stage::gatherJoints(w);
+  w.free_components.clear();
+  w.joint_step.clear();
+  size_t count = 0;
+  forEachRow(w, [&](const DirectRow&) { ++count; });
+  if (count != rows.size()) return;  // joints were changed since the step that the rows are of
+  size_t i = 0;
+  forEachRow(w, [&](DirectRow& r) {
+    r.state = rows[i].state;
+    r.held = rows[i].held;
+    r.clamped = static_cast<int8_t>(rows[i].side - 1);
+    ++i;
+  });
+}
+
+void takeOver(World::Impl& w, World::Impl& from, const Memory& memory) {
   from.def.workers = w.def.workers;
   from.def.simd = w.def.simd;
   w.def = from.def;
@@ -278,7 +327,7 @@ void takeOver(World::Impl& w, World::Impl& from, std::span<const Leaf> leaves) {
   w.pairs = std::move(from.pairs);
   w.sleeping_pairs = std::move(from.sleeping_pairs);
   w.contacts = std::move(from.contacts);
-  restTree(w, leaves);
+  restTree(w, memory.leaves);
 
   // Lists that point into what was replaced are made again in the next step.
   w.active_changed = true;
@@ -289,6 +338,7 @@ void takeOver(World::Impl& w, World::Impl& from, std::span<const Leaf> leaves) {
   w.joint_components = JointComponents{};
   w.tree_is_current = false;
   w.times.clear();
+  rememberRows(w, memory.rows);
 }
 
 template <size_t... I>
@@ -352,9 +402,9 @@ size_t World::snapshot(std::span<std::byte> out) const {
 }
 
 void World::restore(std::span<const std::byte> in) {
-  std::vector<Leaf> leaves;
-  const std::unique_ptr<Impl> read = readAll(in, leaves);
-  takeOver(*impl_, *read, leaves);
+  Memory memory;
+  const std::unique_ptr<Impl> read = readAll(in, memory);
+  takeOver(*impl_, *read, memory);
 }
 
 }  // namespace pfx

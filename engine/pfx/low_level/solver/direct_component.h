@@ -34,6 +34,7 @@ class DirectComponent {
   // Indices of states, in local order.
   std::span<const uint32_t> bodies() const { return body_index_; }
   uint32_t numJoints() const { return static_cast<uint32_t>(joints_.size()); }
+  std::span<DirectJoint> joints() { return joints_; }  // which rows act is remembered from step to step
 
   // Loads the bodies at the start of a step; motions: by local body, inertia null where joints do not move it.
   void begin(std::span<const RigidState> states, std::span<const RigidBody> bodies,
