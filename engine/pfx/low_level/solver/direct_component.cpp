@@ -12,13 +12,13 @@ namespace {
 constexpr int kMaxIterations = 12;  // solves a sub-step; two are the rule, changes of limits take the rest
 
 // Iterations end where rounding no longer lets the residual fall by this factor.
-constexpr double kStagnation = 0.5;
+constexpr double kStagnation = 0.9;
 
 // What the diagonal is enlarged by: enough to make the factor exist, too little to be seen. Rows of a closed component
 // may depend on each other; there it also decides how loads are shared, and errors of the position below the slop,
 // which rounding of the poses makes and no force can remove, count as none.
 constexpr double kOpenRegularization = 1e-9;
-constexpr double kClosedRegularization = 1e-5;
+constexpr double kClosedRegularization = 1e-6;
 constexpr double kClosedSlop = 1e-6;
 
 // From the first ratio of h^2 |K| to the inertia on (see stiffnessRatio), a component takes damped sub-steps with the

@@ -26,14 +26,18 @@ JointSide makeSide(const RigidState& state, const SolverBody& body, bool writabl
 
 }  // namespace
 
+void SoftJoints::add(const SoftJoint& joint) {
+  SoftJoint& j = joints_.emplace_back(joint);
+  j.num_rows = numAxisRows(*joint.constraint.joint);
+  j.has_point = hasPointPart(*joint.constraint.joint);
+}
+
 void SoftJoints::addGroup(std::span<const uint32_t> links, bool serial) {
   // Joints with the same rows go into the same batches, as far as there are enough of them.
   sorted_.assign(links.begin(), links.end());
-  const auto shape = [&](uint32_t i) {
-    const Joint& j = *joints_[i].constraint.joint;
-    return 2 * numAxisRows(j) + (hasPointPart(j) ? 1 : 0);
-  };
-  std::stable_sort(sorted_.begin(), sorted_.end(), [&](uint32_t a, uint32_t b) { return shape(a) < shape(b); });
+  const auto shape = [&](uint32_t i) { return 2 * joints_[i].num_rows + (joints_[i].has_point ? 1u : 0u); };
+  const auto before = [&](uint32_t a, uint32_t b) { return shape(a) < shape(b); };
+  if (!std::is_sorted(sorted_.begin(), sorted_.end(), before)) std::stable_sort(sorted_.begin(), sorted_.end(), before);
   const uint32_t begin = static_cast<uint32_t>(lanes_.size() / kRowLanes);
   for (uint32_t link : sorted_) {
     lanes_.push_back(&joints_[link]);
@@ -53,7 +57,7 @@ void SoftJoints::makeBatches() {
   for (size_t b = 0; b < batches_.size(); ++b) {
     uint32_t most = 0;
     for (int lane = 0; lane < kRowLanes; ++lane)
-      if (const SoftJoint* j = lanes_[b * kRowLanes + lane]) most = std::max(most, numAxisRows(*j->constraint.joint));
+      if (const SoftJoint* j = lanes_[b * kRowLanes + lane]) most = std::max(most, j->num_rows);
     batches_[b].first_row = num_rows;
     batches_[b].num_rows = most;
     num_rows += most;

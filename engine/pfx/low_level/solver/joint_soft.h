@@ -26,12 +26,14 @@ struct SoftJointParams {
 struct SoftJoint {
   JointConstraint constraint;
   uint32_t solver_a = 0, solver_b = 0;
+  uint32_t num_rows = 0;   // for single axes
+  bool has_point = false;  // see joint_setup.h; both are set by SoftJoints::add
 };
 
 class SoftJoints {
  public:
   void clear() { joints_.clear(); }
-  void add(const SoftJoint& joint) { joints_.push_back(joint); }
+  void add(const SoftJoint& joint);
   bool empty() const { return joints_.empty(); }
 
   // Colours the joints and fills the batches. `bodies` as in SoftStep::prepare.
