@@ -5,7 +5,7 @@
 namespace samples {
 namespace {
 
-constexpr std::array kSamples = {simpleScenes, stableScenes, jointScenes};
+constexpr std::array kSamples = {simpleScenes, stableScenes, sleepScenes, motionTypeScenes, jointScenes};
 
 std::vector<SceneEntry> allScenes() {
   std::vector<SceneEntry> all;

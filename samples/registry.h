@@ -9,6 +9,8 @@ namespace samples {
 
 std::vector<SceneEntry> simpleScenes();  // 1_simple
 std::vector<SceneEntry> stableScenes();  // 2_stable
-std::vector<SceneEntry> jointScenes();   // 6_joint
+std::vector<SceneEntry> sleepScenes();       // 3_sleep
+std::vector<SceneEntry> motionTypeScenes();  // 4_motion_type
+std::vector<SceneEntry> jointScenes();       // 6_joint
 
 }  // namespace samples

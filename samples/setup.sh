@@ -15,7 +15,7 @@ build_packages=(
 build_packages_optional=(libosmesa6 libosmesa6-dev)
 
 # To run every test as well. The optional ones: a browser that reads the golden report, and engines to compare with.
-test_packages=(libgtest-dev libbenchmark-dev xvfb xdotool)
+test_packages=(libgtest-dev libbenchmark-dev xvfb xauth xdotool imagemagick)
 test_packages_optional=(chromium libbullet-dev libode-dev)
 
 say() { printf '\033[1m== %s\033[0m\n' "$*"; }
@@ -69,8 +69,12 @@ needPackages() {
     mapfile -t optional < <(availablePackages "${optional[@]}")
   fi
   say "installing ${required[*]} ${optional[*]}"
-  "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -qq -y --no-install-recommends install \
-    "${required[@]}" "${optional[@]}" || fail "apt-get could not install: ${required[*]} ${optional[*]}" 2
+  mkdir -p "$project_root/build"
+  "${sudo[@]}" env DEBIAN_FRONTEND=noninteractive apt-get -y --no-install-recommends install \
+    "${required[@]}" "${optional[@]}" >"$project_root/build/packages.log" 2>&1 || {
+    tail -20 "$project_root/build/packages.log" >&2
+    fail "apt-get could not install: ${required[*]} ${optional[*]}" 2
+  }
 }
 
 # buildPreset PRESET "TARGET..." [CMAKE_OPTION...]: configures and builds into build/PRESET.

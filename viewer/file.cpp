@@ -25,9 +25,7 @@ void makeFolder(const fs::path& folder) {
   if (error) fail(folder, "cannot make this folder", error.value());
 }
 
-fs::path besideFile(const fs::path& file) {
-  return file.string() + ".part" + std::to_string(getpid());
-}
+fs::path besideFile(const fs::path& file) { return file.string() + ".part" + std::to_string(getpid()); }
 
 template <class Bytes>
 Bytes readAll(const fs::path& file) {

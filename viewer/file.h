@@ -14,13 +14,13 @@ namespace viewer {
 std::vector<uint8_t> readFile(const std::filesystem::path& file);
 std::string readText(const std::filesystem::path& file);
 
-// Makes missing folders, writes beside the file and moves it into place, so that a reader never sees half of it.
-// Throw InputError.
+// Makes missing folders, writes beside the file and moves it into place, so that a reader never sees half of
+// it. Throw InputError.
 void writeFile(const std::filesystem::path& file, std::span<const uint8_t> bytes);
 void writeText(const std::filesystem::path& file, std::string_view text);
 
-// Makes the folder when it is missing and tests that a file can be made in it; for checking --out before long work.
-// Throws InputError.
+// Makes the folder when it is missing and tests that a file can be made in it; for checking --out before long
+// work. Throws InputError.
 void requireWritableFolder(const std::filesystem::path& folder);
 
 // The folder of the running program.

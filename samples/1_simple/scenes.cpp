@@ -4,6 +4,6 @@
 
 namespace samples {
 
-std::vector<SceneEntry> simpleScenes() { return basicScenes("1_simple", pfx::Pipeline::Simple); }
+std::vector<SceneEntry> simpleScenes() { return basicScenes("1_simple", {.pipeline = pfx::Pipeline::Simple}); }
 
 }  // namespace samples

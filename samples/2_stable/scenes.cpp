@@ -4,6 +4,6 @@
 
 namespace samples {
 
-std::vector<SceneEntry> stableScenes() { return basicScenes("2_stable", pfx::Pipeline::Stable); }
+std::vector<SceneEntry> stableScenes() { return basicScenes("2_stable", {.pipeline = pfx::Pipeline::Stable}); }
 
 }  // namespace samples

@@ -5,6 +5,8 @@
 #include <memory>
 #include <vector>
 
+#include "pfx/base_level/shape/convex_mesh.h"
+#include "pfx/base_level/shape/large_mesh.h"
 #include "samples/benchmarks/engine.h"
 
 namespace samples::benchmarks {
@@ -19,9 +21,12 @@ pfx::Vec3 fromBullet(const btVector3& v) {
   return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
 }
 
-// Null for a geometry without a counterpart here.
+// Bullet's counterpart of a geometry. Triangle meshes are kept in `meshes`, since Bullet's shape only refers
+// to them.
 struct MakeShape {
   using Result = std::unique_ptr<btCollisionShape>;
+  std::vector<std::unique_ptr<btTriangleMesh>>& meshes;
+
   Result operator()(const pfx::Sphere& s) const { return std::make_unique<btSphereShape>(s.radius); }
   Result operator()(const pfx::Box& s) const { return std::make_unique<btBoxShape>(toBullet(s.half_extent)); }
   Result operator()(const pfx::Capsule& s) const {
@@ -30,7 +35,20 @@ struct MakeShape {
   Result operator()(const pfx::Cylinder& s) const {
     return std::make_unique<btCylinderShapeX>(btVector3(s.half_length, s.radius, s.radius));
   }
-  Result operator()(const void*) const { return nullptr; }
+  Result operator()(const pfx::ConvexMesh* mesh) const {
+    auto hull = std::make_unique<btConvexHullShape>();
+    for (const pfx::Vec3& v : mesh->vertices) hull->addPoint(toBullet(v), false);
+    hull->recalcLocalAabb();
+    return hull;
+  }
+  Result operator()(const pfx::LargeMesh* mesh) const {
+    meshes.push_back(std::make_unique<btTriangleMesh>());
+    for (uint32_t facet = 0; facet < mesh->numFacets(); ++facet) {
+      const auto v = pfx::facetVertices(*mesh, facet);
+      meshes.back()->addTriangle(toBullet(v[0]), toBullet(v[1]), toBullet(v[2]));
+    }
+    return std::make_unique<btBvhTriangleMeshShape>(meshes.back().get(), true);
+  }
 };
 
 class BulletEngine final : public Engine {
@@ -42,9 +60,9 @@ class BulletEngine final : public Engine {
   }
 
   bool add(const pfx::RigidState& state, const pfx::RigidBody& body, std::span<const pfx::Shape> shapes) {
-    btCollisionShape* shape = addShapes(shapes);
     const bool fixed = state.motion_type == pfx::MotionType::Fixed;
-    if (shape == nullptr || (!fixed && state.motion_type != pfx::MotionType::Active)) return false;
+    if (!fixed && state.motion_type != pfx::MotionType::Active) return false;
+    btCollisionShape* shape = addShapes(shapes);
 
     btRigidBody::btRigidBodyConstructionInfo info(fixed ? 0.0f : body.mass, nullptr, shape,
                                                   toBullet(body.inertia.diagonal()));
@@ -85,12 +103,11 @@ class BulletEngine final : public Engine {
   btCollisionShape* addShapes(std::span<const pfx::Shape> shapes) {
     if (shapes.size() == 1 && shapes[0].offset.position.isZero() &&
         shapes[0].offset.orientation.isApprox(pfx::Quat::Identity())) {
-      return keep(std::visit(MakeShape{}, shapes[0].geometry));
+      return keep(std::visit(MakeShape{meshes_}, shapes[0].geometry));
     }
     auto compound = std::make_unique<btCompoundShape>();
     for (const pfx::Shape& part : shapes) {
-      btCollisionShape* child = keep(std::visit(MakeShape{}, part.geometry));
-      if (child == nullptr) return nullptr;
+      btCollisionShape* child = keep(std::visit(MakeShape{meshes_}, part.geometry));
       compound->addChildShape(toBullet(part.offset), child);
     }
     return keep(std::move(compound));
@@ -101,6 +118,7 @@ class BulletEngine final : public Engine {
   btDbvtBroadphase broadphase_;
   btSequentialImpulseConstraintSolver solver_;
   btDiscreteDynamicsWorld world_{&dispatcher_, &broadphase_, &solver_, &configuration_};
+  std::vector<std::unique_ptr<btTriangleMesh>> meshes_;
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
 };

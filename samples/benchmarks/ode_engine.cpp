@@ -7,6 +7,7 @@
 #include <memory>
 #include <vector>
 
+#include "pfx/base_level/shape/large_mesh.h"
 #include "samples/benchmarks/engine.h"
 
 namespace samples::benchmarks {
@@ -32,9 +33,33 @@ void setOffset(dGeomID geom, const pfx::Transform& offset, bool along_z) {
   dGeomSetOffsetQuaternion(geom, rotation);
 }
 
-// Null for a geometry without a counterpart here.
+// A triangle mesh as ODE wants it: vertices of four numbers, and its own record of both arrays.
+struct OdeMesh {
+  explicit OdeMesh(const pfx::LargeMesh& mesh) : data(dGeomTriMeshDataCreate()) {
+    for (uint32_t facet = 0; facet < mesh.numFacets(); ++facet) {
+      for (const pfx::Vec3& v : pfx::facetVertices(mesh, facet)) {
+        indices.push_back(static_cast<dTriIndex>(indices.size()));
+        vertices.insert(vertices.end(), {v.x(), v.y(), v.z(), 0.0f});
+      }
+    }
+    const int count = static_cast<int>(indices.size());
+    dGeomTriMeshDataBuildSingle(data, vertices.data(), 4 * sizeof(float), count, indices.data(), count,
+                                3 * sizeof(dTriIndex));
+  }
+  ~OdeMesh() { dGeomTriMeshDataDestroy(data); }
+  OdeMesh(const OdeMesh&) = delete;
+  OdeMesh& operator=(const OdeMesh&) = delete;
+
+  dTriMeshDataID data;
+  std::vector<float> vertices;
+  std::vector<dTriIndex> indices;
+};
+
+// ODE's counterpart of a geometry; null for convex meshes, which ODE wants as planes and polygons.
 struct MakeGeom {
   dSpaceID space;
+  std::vector<std::unique_ptr<OdeMesh>>& meshes;
+
   dGeomID operator()(const pfx::Sphere& s) const { return dCreateSphere(space, s.radius); }
   dGeomID operator()(const pfx::Box& s) const {
     return dCreateBox(space, 2 * s.half_extent.x(), 2 * s.half_extent.y(), 2 * s.half_extent.z());
@@ -45,7 +70,11 @@ struct MakeGeom {
   dGeomID operator()(const pfx::Cylinder& s) const {
     return dCreateCylinder(space, s.radius, 2 * s.half_length);
   }
-  dGeomID operator()(const void*) const { return nullptr; }
+  dGeomID operator()(const pfx::ConvexMesh*) const { return nullptr; }
+  dGeomID operator()(const pfx::LargeMesh* mesh) const {
+    meshes.push_back(std::make_unique<OdeMesh>(*mesh));
+    return dCreateTriMesh(space, meshes.back()->data, nullptr, nullptr, nullptr);
+  }
 };
 
 class OdeEngine final : public Engine {
@@ -91,7 +120,7 @@ class OdeEngine final : public Engine {
     bodies_.push_back(id);
 
     for (const pfx::Shape& shape : shapes) {
-      const dGeomID geom = std::visit(MakeGeom{space_}, shape.geometry);
+      const dGeomID geom = std::visit(MakeGeom{space_, meshes_}, shape.geometry);
       if (geom == nullptr) return false;
       dGeomSetBody(geom, id);
       setOffset(geom, shape.offset,
@@ -141,6 +170,7 @@ class OdeEngine final : public Engine {
   dWorldID world_;
   dSpaceID space_;
   dJointGroupID contacts_;
+  std::vector<std::unique_ptr<OdeMesh>> meshes_;
   std::vector<pfx::RigidBody> surfaces_;
   std::vector<dBodyID> bodies_;
 };

@@ -1,6 +1,13 @@
 // All bodies have the density of water, friction 0.5 and no bounce, on a fixed floor whose top is y = 0.
 #include "samples/benchmarks/scenes.h"
 
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "pfx/base_level/math/trig.h"
+#include "pfx/util/mesh_builder/mesh_builder.h"
+
 namespace samples::benchmarks {
 namespace {
 
@@ -22,6 +29,29 @@ void addFloor(pfx::World& world) {
                  .shapes = {{.geometry = pfx::Box{{50.0f, 1.0f, 50.0f}}}},
                  .restitution = 0.0f,
                  .friction = kFriction});
+}
+
+// Two waves across each other, and a rim outside 40 m that keeps bodies in.
+float terrainHeight(float x, float z) {
+  const float rim = std::max(0.0f, std::max(std::abs(x), std::abs(z)) - 40.0f);
+  return 0.6f * pfx::sin(0.45f * x) * pfx::cos(0.4f * z) +
+         0.15f * pfx::sin(1.7f * x + 0.3f) * pfx::sin(1.9f * z - 0.7f) + 0.08f * rim * rim;
+}
+
+pfx::LargeMesh makeTerrain() {
+  constexpr uint32_t kCells = 100;  // a side, 1 m each, two triangles each
+  std::vector<pfx::Vec3> vertices;
+  std::vector<uint32_t> indices;
+  for (uint32_t i = 0; i <= kCells; ++i) {
+    for (uint32_t k = 0; k <= kCells; ++k) {
+      const float x = static_cast<float>(i) - 0.5f * kCells, z = static_cast<float>(k) - 0.5f * kCells;
+      vertices.emplace_back(x, terrainHeight(x, z), z);
+      if (i == kCells || k == kCells) continue;
+      const uint32_t a = i * (kCells + 1) + k, b = a + kCells + 1;
+      indices.insert(indices.end(), {a, a + 1, b, b, a + 1, b + 1});
+    }
+  }
+  return pfx::buildLargeMesh(vertices, indices).mesh;
 }
 
 }  // namespace
@@ -55,12 +85,35 @@ void buildPile(pfx::World& world, int bodies_a_side) {
   }
 }
 
+// A grid of spheres above waves, thrown in all directions: each touches a few of 20,000 triangles.
+void buildTerrain(pfx::World& world) {
+  static const pfx::LargeMesh terrain = makeTerrain();
+  constexpr float kRadius = 0.4f, kSpeed = 3.0f;  // m, m/s
+  constexpr float kGoldenAngle = 2.3999632f;      // rad; its multiples point everywhere
+  world.addBody({.name = "terrain",
+                 .motion_type = pfx::MotionType::Fixed,
+                 .shapes = {{.geometry = &terrain}},
+                 .restitution = 0.0f,
+                 .friction = kFriction});
+  for (int n = 0; n < 1000; ++n) {
+    const pfx::SinCos way = pfx::sincos(static_cast<float>(n) * kGoldenAngle);
+    const float row = static_cast<float>(n / 32), column = static_cast<float>(n % 32);
+    world.addBody({.pose = {.position = {2.0f * (row - 15.5f), 2.0f, 2.0f * (column - 15.5f)}},
+                   .linear_velocity = {kSpeed * way.cos, 0.0f, kSpeed * way.sin},
+                   .shapes = {{.geometry = pfx::Sphere{kRadius}}},
+                   .mass = kDensity * 4.18879f * kRadius * kRadius * kRadius,
+                   .restitution = 0.0f,
+                   .friction = kFriction});
+  }
+}
+
 std::span<const Case> cases() {
   static constexpr Case kCases[] = {
       {"pyramid", "210 boxes in 20 rows: one island, ten contacts deep",
        [](pfx::World& w) { buildPyramid(w, 20); }, 600, true},
       {"pile", "1000 boxes dropped in a heap: broad phase and contacts",
        [](pfx::World& w) { buildPile(w, 10); }, 600, false},
+      {"terrain", "1000 spheres on 20,000 triangles: the mesh's hierarchy", buildTerrain, 600, false},
   };
   return kCases;
 }

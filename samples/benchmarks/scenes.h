@@ -20,5 +20,6 @@ std::span<const Case> cases();
 
 void buildPyramid(pfx::World& world, int rows);
 void buildPile(pfx::World& world, int bodies_a_side);
+void buildTerrain(pfx::World& world);
 
 }  // namespace samples::benchmarks

@@ -15,11 +15,11 @@ void addPrimitives(World& world) {
   addBody(world, "cylinder", Cylinder{0.5f, 1.5f}, Vec3(0.0f, 10.0f, 0.0f), 3.0f);
   addBody(world, "barrel", world.keep(makeBarrel()), Vec3(0.0f, 15.0f, 0.0f), 3.0f);
   world.addBody({.name = "compound",
-                   .pose = {.position = Vec3(0.0f, 5.0f, 0.0f)},
-                   .shapes = {shape(Box{Vec3(0.5f, 0.5f, 1.5f)}, {.position = Vec3(-2.0f, 0.0f, 0.0f)}),
-                              shape(Box{Vec3(0.5f, 1.5f, 0.5f)}, {.position = Vec3(2.0f, 0.0f, 0.0f)}),
-                              shape(Capsule{1.5f, 0.5f})},
-                   .mass = 3.0f,
+                 .pose = {.position = Vec3(0.0f, 5.0f, 0.0f)},
+                 .shapes = {shape(Box{Vec3(0.5f, 0.5f, 1.5f)}, {.position = Vec3(-2.0f, 0.0f, 0.0f)}),
+                            shape(Box{Vec3(0.5f, 1.5f, 0.5f)}, {.position = Vec3(2.0f, 0.0f, 0.0f)}),
+                            shape(Capsule{1.5f, 0.5f})},
+                 .mass = 3.0f,
                  .angular_damping = 1.0f});
 }
 
@@ -92,15 +92,13 @@ std::unique_ptr<Scene> make() {
 
 }  // namespace
 
-std::vector<SceneEntry> basicScenes(std::string_view sample, Pipeline pipeline) {
-  WorldDef world;
-  world.pipeline = pipeline;
+std::vector<SceneEntry> basicScenes(std::string_view sample, const WorldDef& world) {
   return {
       {.sample = sample,
        .name = "primitives",
        .shows = "each kind of shape falls, rolls or tips, and comes to rest",
-       .camera = {.target = Vec3(0.0f, 1.2f, 1.0f), .distance = 19.0f, .yaw_deg = 28.0f, .pitch_deg = 22.0f},
-       .frames = {0, 60, 240},
+       .camera = {.target = Vec3(0.0f, 2.0f, 1.0f), .distance = 21.0f, .yaw_deg = 28.0f, .pitch_deg = 22.0f},
+       .frames = {30, 90, 360},
        .world = world,
        .make = make<Primitives>},
       {.sample = sample,
@@ -114,21 +112,22 @@ std::vector<SceneEntry> basicScenes(std::string_view sample, Pipeline pipeline) 
        .name = "tower",
        .shows = "192 boxes in eight rings carry each other",
        .camera = {.target = Vec3(0.0f, 6.5f, 0.0f), .distance = 42.0f, .yaw_deg = 25.0f, .pitch_deg = 26.0f},
-       .frames = {0, 60, 240},
+       .frames = {0, 120, 600},
        .world = world,
        .make = make<Tower>},
       {.sample = sample,
        .name = "pyramid",
        .shows = "the lowest row carries 190 boxes and does not sink",
-       .camera = {.target = Vec3(0.0f, 8.5f, 0.0f), .distance = 33.0f, .yaw_deg = 32.0f, .pitch_deg = 12.0f},
-       .frames = {0, 60, 240},
+       .camera = {.target = Vec3(0.0f, 9.0f, 0.0f), .distance = 35.0f, .yaw_deg = 32.0f, .pitch_deg = 12.0f},
+       .frames = {0, 120, 600},
        .world = world,
        .make = make<Pyramid>},
       {.sample = sample,
        .name = "landscape",
-       .shows = "the same shapes on a mesh of 128 triangles: they follow its slopes and never catch on an inner edge",
-       .camera = {.target = Vec3(0.0f, 0.0f, 0.0f), .distance = 30.0f, .yaw_deg = 28.0f, .pitch_deg = 24.0f},
-       .frames = {0, 90, 300},
+       .shows = "the same shapes on a mesh of 128 triangles: they follow its slopes and never catch on an "
+                "inner edge",
+       .camera = {.target = Vec3(0.0f, 0.8f, 0.0f), .distance = 27.0f, .yaw_deg = 28.0f, .pitch_deg = 24.0f},
+       .frames = {45, 100, 400},
        .world = world,
        .make = make<Landscape>},
   };

@@ -1,4 +1,5 @@
-// The scenes that 1_simple and 2_stable have in common; the two samples differ only in what the world remembers.
+// The scenes that 1_simple, 2_stable and 3_sleep have in common; the samples differ only in what the world
+// remembers.
 #pragma once
 
 #include <vector>
@@ -7,7 +8,7 @@
 
 namespace samples {
 
-// The basic scenes under the name of a sample and with its pipeline.
-std::vector<SceneEntry> basicScenes(std::string_view sample, pfx::Pipeline pipeline);
+// The basic scenes under the name of a sample and with its world settings.
+std::vector<SceneEntry> basicScenes(std::string_view sample, const pfx::WorldDef& world);
 
 }  // namespace samples

@@ -25,7 +25,11 @@ BodyId addGround(World& world) {
 }
 
 BodyId addBody(World& world, const char* name, const Geometry& geometry, const Vec3& position, float mass) {
-  return world.addBody({.name = name, .pose = {.position = position}, .shapes = {shape(geometry)}, .mass = mass, .angular_damping = 1.0f});
+  return world.addBody({.name = name,
+                        .pose = {.position = position},
+                        .shapes = {shape(geometry)},
+                        .mass = mass,
+                        .angular_damping = 1.0f});
 }
 
 ConvexMesh makeBarrel() {
@@ -77,6 +81,20 @@ void addTower(World& world, const TowerSize& size) {
       world.addBody({.name = "brick " + std::to_string(layer) + "/" + std::to_string(i),
                      .pose = {.position = Vec3(radius * turn.sin, y, radius * turn.cos),
                               .orientation = Quat(half.cos, 0.0f, half.sin, 0.0f)},
+                     .shapes = {shape(Box{Vec3::Constant(size.half_extent)})},
+                     .mass = size.mass});
+    }
+  }
+}
+
+void addWall(World& world, const Vec3& center, const WallSize& size) {
+  for (int row = 0; row < size.rows; ++row) {
+    const int count = size.rows - row;
+    for (int i = 0; i < count; ++i) {
+      const float z = (2.0f * static_cast<float>(i) - static_cast<float>(count - 1)) * size.half_extent;
+      const float y = (2.0f * static_cast<float>(row) + 1.0f) * size.half_extent;
+      world.addBody({.name = "block " + std::to_string(row) + "/" + std::to_string(i),
+                     .pose = {.position = center + Vec3(0.0f, y, z)},
                      .shapes = {shape(Box{Vec3::Constant(size.half_extent)})},
                      .mass = size.mass});
     }

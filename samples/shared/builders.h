@@ -17,8 +17,8 @@ pfx::Quat rotation(const pfx::Vec3& axis, float angle);
 pfx::BodyId addGround(pfx::World& world);
 
 // One active body of one shape; its spin dies away at 1/s, so that round bodies come to rest.
-pfx::BodyId addBody(pfx::World& world, const char* name, const pfx::Geometry& geometry, const pfx::Vec3& position,
-                    float mass);
+pfx::BodyId addBody(pfx::World& world, const char* name, const pfx::Geometry& geometry,
+                    const pfx::Vec3& position, float mass);
 
 // Barrel of 24 vertices along Y: three rings of eight, the middle one wider. Half height and radius 1 m.
 pfx::ConvexMesh makeBarrel();
@@ -34,13 +34,22 @@ pfx::LargeMesh makeTerrain(const TerrainSize& size);
 
 struct TowerSize {
   int layers = 8;
-  int boxes = 24;               // a layer
-  float half_extent = 1.0f;     // m, of a box
-  float mass = 0.5f;            // kg, of a box
+  int boxes = 24;            // a layer
+  float half_extent = 1.0f;  // m, of a box
+  float mass = 0.5f;         // kg, of a box
 };
 
 // Circular tower on y = 0: rings of boxes, every other ring turned by half a box.
 void addTower(pfx::World& world, const TowerSize& size);
+
+struct WallSize {
+  int rows = 7;
+  float half_extent = 0.5f;  // m, of a box
+  float mass = 0.5f;         // kg, of a box
+};
+
+// Triangular wall of touching boxes in the plane x = centre.x that stands on centre.y; rows run along Z.
+void addWall(pfx::World& world, const pfx::Vec3& center, const WallSize& size);
 
 struct PyramidSize {
   int rows = 20;

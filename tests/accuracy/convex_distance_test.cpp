@@ -1,4 +1,5 @@
-// ACC-31: signed distances of convex hulls against exact rational arithmetic (tests/accuracy/ref/convex.json).
+// ACC-31: signed distances of convex hulls against exact rational arithmetic
+// (tests/accuracy/ref/convex.json).
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -36,7 +37,8 @@ std::vector<Row> table() {
     EXPECT_EQ(buildConvexMesh(points(pair["a"]), row.a), Error::Ok);
     EXPECT_EQ(buildConvexMesh(points(pair["b"]), row.b), Error::Ok);
     row.distance = pair["signed_distance"].get<double>();
-    if (const auto& axis = pair["axis_if_penetrating"]; !axis.is_null()) row.axis = points({axis})[0];
+    if (const auto& axis = pair["axis_if_penetrating"]; !axis.is_null())
+      row.axis = Vec3(axis[0].get<float>(), axis[1].get<float>(), axis[2].get<float>());
   }
   return rows;
 }

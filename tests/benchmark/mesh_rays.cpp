@@ -11,7 +11,6 @@
 #endif
 
 #include "pfx/base_level/ray/ray.h"
-#include "pfx/low_level/ray/cast_mesh_rays.h"
 #include "pfx/util/mesh_builder/mesh_builder.h"
 #include "tests/support/meshes.h"
 
@@ -86,7 +85,7 @@ void batch(benchmark::State& state) {
   const auto& m = mesh(static_cast<pfx::LargeMeshType>(state.range(1)), true);
   std::vector<pfx::ShapeHit> hits(rays.size());
   for (auto _ : state) {
-    pfx::castMeshRays(rays, m, hits);
+    pfx::castRays(rays, m, hits);
     benchmark::DoNotOptimize(hits.data());
   }
   state.SetItemsProcessed(static_cast<int64_t>(state.iterations()) * kNumRays);

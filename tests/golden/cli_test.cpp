@@ -2,6 +2,7 @@
 #include <gtest/gtest.h>
 #include <unistd.h>
 
+#include <cctype>
 #include <nlohmann/json.hpp>
 
 #include "pictures.h"
@@ -13,8 +14,8 @@ namespace golden_tests {
 using nlohmann::json;
 
 TEST(CommandLine, HelpIsThereForTheProgramAndEveryCommand) {
-  for (const char* command : {"", "browse", "list", "render", "verify", "compare", "inspect", "measure", "record",
-                              "replay", "bench"}) {
+  for (const char* command : {"", "browse", "list", "render", "verify", "compare", "inspect", "measure",
+                              "record", "replay", "bench"}) {
     const Outcome o = runVitrine(std::string(command) + " --help");
     EXPECT_EQ(o.status, 0) << command;
     EXPECT_NE(o.out.find("--help"), std::string::npos) << command;
@@ -28,6 +29,13 @@ struct Mistake {
 };
 
 void PrintTo(const Mistake& m, std::ostream* out) { *out << m.arguments; }
+
+// The arguments as an identifier.
+std::string mistakeName(const testing::TestParamInfo<Mistake>& info) {
+  std::string name;
+  for (char c : info.param.arguments) name += std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+  return name;
+}
 
 class BadUsage : public testing::TestWithParam<Mistake> {};
 
@@ -56,8 +64,7 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"render 2_stable --frames 0 --camera yaw=up --out /tmp/x", "\"up\" is not a number"},
         Mistake{"render 2_stable --frames 0 --out /dev/null/x", "/dev/null/x"},
         Mistake{"measure /nonexistent/none.xml", "/nonexistent/none.xml: no such scene file"},
-        Mistake{"measure 2_stable --steps -1", "--steps"},
-        Mistake{"measure 2_stable --dt nan", "--dt"},
+        Mistake{"measure 2_stable --steps -1", "--steps"}, Mistake{"measure 2_stable --dt nan", "--dt"},
         Mistake{"measure 2_stable --solver magic", "unknown solver \"magic\""},
         Mistake{"compare /nonexistent/a.png /nonexistent/b.png", "/nonexistent/a.png: cannot read"},
         Mistake{"compare /dev/null /dev/null", "/dev/null: not a PNG file"},
@@ -70,7 +77,8 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"replay /etc/passwd", "/etc/passwd: is not a recording"},
         Mistake{"record 2_stable --steps 5 --out /tmp/x", "name one, for example 2_stable/"},
         Mistake{"bench no_such_case", "unknown case \"no_such_case\"; known: "},
-        Mistake{"browse", "vitrine render"}));
+        Mistake{"browse", "vitrine render"}),
+    mistakeName);
 
 TEST(CommandLine, ListJsonHasSamplesScenesStagesAndFrames) {
   const json list = json::parse(runVitrine("list --json").out);
@@ -94,16 +102,18 @@ std::string someScene() {
 TEST(CommandLine, MeasureJsonHasItsKeysAndTheSameHashForAnyNumberOfThreads) {
   const std::string call = "measure " + someScene() + " --steps 60 --poses --json --threads ";
   const json one = json::parse(runVitrine(call + "1").out), four = json::parse(runVitrine(call + "4").out);
-  for (const char* key : {"target", "steps", "dt", "substeps", "solver", "threads"}) EXPECT_TRUE(one.contains(key)) << key;
+  for (const char* key : {"target", "steps", "dt", "substeps", "solver", "threads"})
+    EXPECT_TRUE(one.contains(key)) << key;
   EXPECT_EQ(one.at("state_hash").get<std::string>().size(), 16u);
   EXPECT_EQ(one.at("state_hash"), four.at("state_hash"));
   EXPECT_EQ(one.at("poses"), four.at("poses"));
-  for (const char* key : {"kinetic_energy", "potential_energy", "max_penetration", "max_joint_error", "bodies", "awake",
-                          "contacts"})
+  for (const char* key : {"kinetic_energy", "potential_energy", "max_penetration", "max_joint_error",
+                          "bodies", "awake", "contacts"})
     EXPECT_TRUE(one.at("final").at(key).is_number()) << key;
   EXPECT_EQ(one.at("final").at("linear_momentum").size(), 3u);
   EXPECT_EQ(one.at("final").at("angular_momentum").size(), 3u);
-  for (const char* key : {"max_penetration", "max_joint_error", "speed"}) EXPECT_TRUE(one.at("max").contains(key)) << key;
+  for (const char* key : {"max_penetration", "max_joint_error", "speed"})
+    EXPECT_TRUE(one.at("max").contains(key)) << key;
   EXPECT_GT(one.at("ms_per_step").at("total").get<double>(), 0.0);
   EXPECT_EQ(one.at("poses").size(), one.at("final").at("bodies").get<size_t>());
   EXPECT_EQ(one.at("poses")[0].at("orientation").size(), 4u);
@@ -139,7 +149,8 @@ TEST(CommandLine, CompareTellsEqualFromDifferent) {
   const json figures = json::parse(o.out);
   EXPECT_EQ(figures.at("verdict"), "fail");
   EXPECT_EQ(figures.at("pixels_over"), 20);
-  for (const char* key : {"max_channel", "max_block", "mean_flip"}) EXPECT_GT(figures.at(key).get<double>(), 0.0) << key;
+  for (const char* key : {"max_channel", "max_block", "mean_flip"})
+    EXPECT_GT(figures.at(key).get<double>(), 0.0) << key;
   EXPECT_EQ(viewer::readPng(scratch / "d.png").width, 640);
 
   o = call("a.png", "small.png", "");

@@ -1,11 +1,12 @@
 // The image metric, FLIP and the verdict: closed forms, and seeded defects that must not pass.
+#include "viewer/image/metric.h"
+
 #include <gtest/gtest.h>
 
 #include <chrono>
 
 #include "pictures.h"
 #include "viewer/image/flip.h"
-#include "viewer/image/metric.h"
 #include "viewer/image/verdict.h"
 
 namespace golden_tests {
@@ -62,8 +63,9 @@ TEST(Flip, IsZeroForEqualPictures) {
   EXPECT_EQ(flip.max_block, 0.0f);
 }
 
-// Without edges FLIP is the redistributed colour distance, which can be written down. Black and white: the HyAB distance
-// is 100; green and blue, the largest: 203.3017 (their Lab coordinates with the Hunt adjustment, in double precision).
+// Without edges FLIP is the redistributed colour distance, which can be written down. Black and white: the
+// HyAB distance is 100; green and blue, the largest: 203.3017 (their Lab coordinates with the Hunt
+// adjustment, in double precision).
 TEST(Flip, OfBlackAndWhiteFollowsThePapersFormula) {
   const float limit = std::pow(203.3017f, 0.7f), d = std::pow(100.0f, 0.7f);
   const float expected = 0.95f + 0.05f * (d - 0.4f * limit) / (limit - 0.4f * limit);
@@ -110,8 +112,10 @@ TEST_P(SeededDefect, FailsOnTheSameRasteriser) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SeededDefect,
-                         testing::Values(Change::BoxMissing, Change::BoxMovedOneCentimetre, Change::ColourFivePercent,
-                                         Change::LineMissing, Change::DigitChanged));
+                         testing::Values(Change::BoxMissing, Change::BoxMovedOneCentimetre,
+                                         Change::ColourFivePercent, Change::LineMissing,
+                                         Change::DigitChanged),
+                         kChangeName);
 
 class VisibleDefect : public testing::TestWithParam<Change> {};
 
@@ -121,7 +125,8 @@ TEST_P(VisibleDefect, FailsOnAnotherRasteriserToo) {
 }
 
 INSTANTIATE_TEST_SUITE_P(All, VisibleDefect,
-                         testing::Values(Change::BoxMissing, Change::LineMissing, Change::DigitChanged));
+                         testing::Values(Change::BoxMissing, Change::LineMissing, Change::DigitChanged),
+                         kChangeName);
 
 TEST(Verdict, ThresholdsAreInclusive) {
   const Image a = flat(640, 360, 100, 100, 100);

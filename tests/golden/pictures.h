@@ -1,10 +1,12 @@
-// Synthetic pictures for the tests: shaded boxes on a ground, thin lines and digits, with one thing changed on demand.
+// Synthetic pictures for the tests: shaded boxes on a ground, thin lines and digits, with one thing changed
+// on demand.
 #pragma once
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <random>
+#include <string>
 
 #include "viewer/image/image.h"
 
@@ -14,7 +16,13 @@ using viewer::Image;
 
 // A seeded defect, or what may vary without harm.
 enum class Change {
-  None, BoxMissing, BoxMovedOneCentimetre, ColourFivePercent, LineMissing, DigitChanged, RoundingNoise
+  None,
+  BoxMissing,
+  BoxMovedOneCentimetre,
+  ColourFivePercent,
+  LineMissing,
+  DigitChanged,
+  RoundingNoise
 };
 
 inline void setPixel(Image& image, int x, int y, const std::array<float, 3>& color, float coverage = 1.0f) {
@@ -23,6 +31,29 @@ inline void setPixel(Image& image, int x, int y, const std::array<float, 3>& col
   for (size_t c = 0; c < 3; ++c)
     px[c] = uint8_t(std::lround(float(px[c]) + coverage * (color[c] - float(px[c]))));
 }
+
+inline const char* nameOf(Change change) {
+  switch (change) {
+    case Change::None:
+      return "None";
+    case Change::BoxMissing:
+      return "BoxMissing";
+    case Change::BoxMovedOneCentimetre:
+      return "BoxMovedOneCentimetre";
+    case Change::ColourFivePercent:
+      return "ColourFivePercent";
+    case Change::LineMissing:
+      return "LineMissing";
+    case Change::DigitChanged:
+      return "DigitChanged";
+    case Change::RoundingNoise:
+      return "RoundingNoise";
+  }
+  return "";
+}
+
+// Names the instances of tests that run once a change.
+inline constexpr auto kChangeName = [](const auto& info) { return std::string(nameOf(info.param)); };
 
 // A rectangle with antialiased left and right edges (px, may be fractions).
 inline void fillBox(Image& image, float x0, float x1, int y0, int y1, const std::array<float, 3>& color) {
@@ -35,11 +66,14 @@ inline void fillBox(Image& image, float x0, float x1, int y0, int y1, const std:
 
 // Digits 3 and 8 of a 5x7 font at double size: they differ in 20 pixels of the left column.
 inline void drawDigit(Image& image, int x0, int y0, bool eight) {
-  static constexpr std::array<uint8_t, 7> kThree = {0b01110, 0b00001, 0b00001, 0b00110, 0b00001, 0b00001, 0b01110};
-  static constexpr std::array<uint8_t, 7> kEight = {0b01110, 0b10001, 0b10001, 0b01110, 0b10001, 0b10001, 0b01110};
+  static constexpr std::array<uint8_t, 7> kThree = {0b01110, 0b00001, 0b00001, 0b00110,
+                                                    0b00001, 0b00001, 0b01110};
+  static constexpr std::array<uint8_t, 7> kEight = {0b01110, 0b10001, 0b10001, 0b01110,
+                                                    0b10001, 0b10001, 0b01110};
   for (int y = 0; y < 14; ++y)
     for (int x = 0; x < 10; ++x)
-      if ((eight ? kEight : kThree)[size_t(y / 2)] >> (4 - x / 2) & 1) setPixel(image, x0 + x, y0 + y, {20, 20, 20});
+      if ((eight ? kEight : kThree)[size_t(y / 2)] >> (4 - x / 2) & 1)
+        setPixel(image, x0 + x, y0 + y, {20, 20, 20});
 }
 
 // 640x360, about 25 px to the metre: 1 cm is a quarter of a pixel.
@@ -49,7 +83,8 @@ inline Image drawPicture(Change change) {
   for (int y = 0; y < image.height; ++y)
     for (int x = 0; x < image.width; ++x) {
       const float sky = 235.0f - 0.2f * float(y);
-      setPixel(image, x, y, y < 180 ? std::array{sky - 20, sky - 8, sky} : std::array{150.0f, 152.0f, 148.0f});
+      setPixel(image, x, y,
+               y < 180 ? std::array{sky - 20, sky - 8, sky} : std::array{150.0f, 152.0f, 148.0f});
     }
   for (int row = 0; row < 10; ++row)
     for (int column = 0; column <= row; ++column) {

@@ -1,11 +1,12 @@
 // PNG in and out: what is written is read back, and every damaged file is an error with the file's name.
+#include "viewer/image/png.h"
+
 #include <gtest/gtest.h>
 
 #include <fstream>
 #include <random>
 
 #include "pictures.h"
-#include "viewer/image/png.h"
 #include "viewer/input_error.h"
 
 namespace golden_tests {
@@ -24,7 +25,8 @@ TEST(Png, ReadsBackWhatWasWritten) {
   for (const bool opaque : {true, false})
     for (const auto& [width, height] : {std::pair{1, 1}, {7, 3}, {64, 33}}) {
       const Image image = randomImage(width, height, opaque);
-      EXPECT_EQ(decodePng(encodePng(image), "memory"), image) << width << "x" << height << " opaque " << opaque;
+      EXPECT_EQ(decodePng(encodePng(image), "memory"), image)
+          << width << "x" << height << " opaque " << opaque;
     }
 }
 
@@ -34,7 +36,8 @@ TEST(Png, WritesIntoFoldersThatDoNotExistYet) {
   const Image image = randomImage(5, 4, true);
   writePng(folder / "a" / "b.png", image);
   EXPECT_EQ(readPng(folder / "a" / "b.png"), image);
-  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "a"), {}), 1) << "a part file was left";
+  EXPECT_EQ(std::distance(std::filesystem::directory_iterator(folder / "a"), {}), 1)
+      << "a part file was left";
   std::filesystem::remove_all(folder);
 }
 
@@ -54,7 +57,9 @@ TEST(Png, NamesTheFileAndTheCause) {
   EXPECT_EQ(errorOf([] { writePng("/dev/null/x.png", randomImage(2, 2, true)); }),
             "/dev/null: cannot make this folder: Not a directory");
   const std::string text = "this is no picture";
-  EXPECT_EQ(errorOf([&] { decodePng({reinterpret_cast<const uint8_t*>(text.data()), text.size()}, "t.png"); }),
+  EXPECT_EQ(errorOf([&] {
+              decodePng({reinterpret_cast<const uint8_t*>(text.data()), text.size()}, "t.png");
+            }),
             "t.png: not a PNG file");
   EXPECT_NE(errorOf([] { encodePng({}); }), "");
 }
@@ -62,7 +67,8 @@ TEST(Png, NamesTheFileAndTheCause) {
 TEST(Png, EveryTruncationIsAnError) {
   const std::vector<uint8_t> bytes = encodePng(randomImage(23, 11, false));
   for (size_t length = 0; length < bytes.size(); ++length) {
-    const std::vector<uint8_t> cut(bytes.begin(), bytes.begin() + std::ptrdiff_t(length));  // its own block, for ASan
+    const std::vector<uint8_t> cut(bytes.begin(),
+                                   bytes.begin() + std::ptrdiff_t(length));  // its own block, for ASan
     EXPECT_EQ(errorOf([&] { decodePng(cut, "cut.png"); }).substr(0, 9), "cut.png: ") << length;
   }
 }
@@ -84,9 +90,10 @@ TEST(Png, DataBehindTheEndIsAnError) {
 
 TEST(Png, HugeSizesAreRefusedBeforeMemoryIsTaken) {
   // A header of 1000000 x 1000000 px with a right checksum.
-  const std::vector<uint8_t> bytes = {0x89, 'P', 'N', 'G', 13, 10, 26, 10, 0, 0, 0, 13, 'I', 'H', 'D', 'R',
-                                      0, 0x0f, 0x42, 0x40, 0, 0x0f, 0x42, 0x40, 8, 6, 0, 0, 0, 0x5c, 0x6d, 0x38, 0x7d,
-                                      0, 0, 0, 0, 'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
+  const std::vector<uint8_t> bytes = {0x89, 'P', 'N', 'G', 13,  10,   26,   10,   0,    0,    0,    13,
+                                      'I',  'H', 'D', 'R', 0,   0x0f, 0x42, 0x40, 0,    0x0f, 0x42, 0x40,
+                                      8,    6,   0,   0,   0,   0x5c, 0x6d, 0x38, 0x7d, 0,    0,    0,
+                                      0,    'I', 'E', 'N', 'D', 0xae, 0x42, 0x60, 0x82};
   const std::string error = errorOf([&] { decodePng(bytes, "huge.png"); });
   EXPECT_EQ(error.substr(0, 10), "huge.png: ");
 }

@@ -1,9 +1,10 @@
 // Recordings: what is written is read back, and damaged files are errors.
+#include "viewer/run/recording.h"
+
 #include <gtest/gtest.h>
 
 #include "pfx/base_level/shape/primitives.h"
 #include "viewer/input_error.h"
-#include "viewer/run/recording.h"
 
 namespace golden_tests {
 using namespace viewer;
@@ -57,7 +58,8 @@ TEST(Recording, AnotherNumberOfBodiesIsAnError) {
 TEST(Recording, TruncatedAndDamagedFilesAreErrors) {
   const std::vector<uint8_t> bytes = recordFall(2);
   for (size_t length = 0; length < bytes.size(); ++length)
-    EXPECT_THROW(Recording({bytes.begin(), bytes.begin() + std::ptrdiff_t(length)}, "cut"), InputError) << length;
+    EXPECT_THROW(Recording({bytes.begin(), bytes.begin() + std::ptrdiff_t(length)}, "cut"), InputError)
+        << length;
   for (size_t bit = 0; bit < bytes.size() * 8; bit += 3) {
     std::vector<uint8_t> damaged = bytes;
     damaged[bit / 8] ^= uint8_t(1u << bit % 8);

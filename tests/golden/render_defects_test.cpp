@@ -35,7 +35,8 @@ void fillList(DrawList& list, Change change) {
     const float x = -5.0f + 0.25f * float(i);
     list.add(Line{pfx::Vec3(x, 0.0f, 2.0f), pfx::Vec3(x + 0.1f, 0.4f, 2.0f), 0xff2050c0u});
   }
-  list.add(Label{pfx::Vec3(16.0f, 16.0f, 0.0f), change == Change::DigitChanged ? "41.83 J" : "41.33 J", 0xff20242bu, true});
+  list.add(Label{pfx::Vec3(16.0f, 16.0f, 0.0f), change == Change::DigitChanged ? "41.83 J" : "41.33 J",
+                 0xff20242bu, true});
 }
 
 // Draws with one context and one renderer for the whole test program: making them is what costs time.
@@ -61,20 +62,25 @@ Image drawList(Backend backend, Change change) {
 class RenderedDefect : public testing::TestWithParam<Change> {};
 
 TEST_P(RenderedDefect, FailsTheVerdict) {
-  const Verdict v = judge(drawList(Backend::Auto, Change::None), drawList(Backend::Auto, GetParam()), Rasteriser::Same);
+  const Verdict v =
+      judge(drawList(Backend::Auto, Change::None), drawList(Backend::Auto, GetParam()), Rasteriser::Same);
   EXPECT_FALSE(v.pass) << v.why;
 }
 
 INSTANTIATE_TEST_SUITE_P(All, RenderedDefect,
-                         testing::Values(Change::BoxMissing, Change::BoxMovedOneCentimetre, Change::ColourFivePercent,
-                                         Change::LineMissing, Change::DigitChanged));
+                         testing::Values(Change::BoxMissing, Change::BoxMovedOneCentimetre,
+                                         Change::ColourFivePercent, Change::LineMissing,
+                                         Change::DigitChanged),
+                         kChangeName);
 
 TEST(RenderedVariation, TheSamePictureTwiceIsExact) {
-  EXPECT_EQ(imageHash(drawList(Backend::Auto, Change::None)), imageHash(drawList(Backend::Auto, Change::None)));
+  EXPECT_EQ(imageHash(drawList(Backend::Auto, Change::None)),
+            imageHash(drawList(Backend::Auto, Change::None)));
 }
 
 TEST(RenderedVariation, OsMesaAndEglDrawThePictureThatPasses) {
-  const Verdict v = judge(drawList(Backend::OsMesa, Change::None), drawList(Backend::Egl, Change::None), Rasteriser::Same);
+  const Verdict v =
+      judge(drawList(Backend::OsMesa, Change::None), drawList(Backend::Egl, Change::None), Rasteriser::Same);
   EXPECT_TRUE(v.pass) << v.why;
 }
 
@@ -85,8 +91,8 @@ TEST(RenderedVariation, TheNumberOfRasteriserThreadsDoesNotShow) {
                        "' render 2_stable/tower --frames 0 --out '" + (scratch / threads) + "'")
                   .status,
               0);
-  const Verdict v = judge(readPng(scratch / "0/2_stable/tower_0.png"), readPng(scratch / "2/2_stable/tower_0.png"),
-                          Rasteriser::Same);
+  const Verdict v = judge(readPng(scratch / "0/2_stable/tower_0.png"),
+                          readPng(scratch / "2/2_stable/tower_0.png"), Rasteriser::Same);
   EXPECT_TRUE(v.pass) << v.why;
 }
 

@@ -1,5 +1,5 @@
-// The HTML report in a real browser without a window: every picture is loaded, the worst frame comes first, and each way
-// of looking works. Needs the package chromium.
+// The HTML report in a real browser without a window: every picture is loaded, the worst frame comes first,
+// and each way of looking works. Needs the package chromium.
 #include <gtest/gtest.h>
 #include <unistd.h>
 
@@ -15,8 +15,10 @@ class SyntheticSource : public FrameSource {
  public:
   explicit SyntheticSource(bool changed) : changed_(changed) {}
   std::string fingerprint() const override { return "synthetic <b>&amp;</b> </script>"; }
-  void render(const SceneSpec&, std::span<const int> frames, const std::function<void(RenderedFrame&&)>& use) override {
-    constexpr Change kChanges[] = {Change::None, Change::RoundingNoise, Change::DigitChanged, Change::BoxMissing};
+  void render(const SceneSpec&, std::span<const int> frames,
+              const std::function<void(RenderedFrame&&)>& use) override {
+    constexpr Change kChanges[] = {Change::None, Change::RoundingNoise, Change::DigitChanged,
+                                   Change::BoxMissing};
     for (int frame : frames) use({frame, 7, drawPicture(changed_ ? kChanges[frame] : Change::None)});
   }
 
@@ -32,7 +34,8 @@ class Report : public testing::Test {
     scene.sample = "2_stable", scene.name = "tower", scene.frames = {0, 1, 2, 3};
     const VerifySettings settings{.golden_dir = scratch_ / "golden"};
     const auto run = [&](bool changed) {
-      return verifyScenes({&scene, 1}, settings, [&] { return std::make_unique<SyntheticSource>(changed); }, {});
+      return verifyScenes({&scene, 1}, settings, [&] { return std::make_unique<SyntheticSource>(changed); },
+                          {});
     };
     approve(run(false), settings.golden_dir, "first pictures");
     page_ = writeReport(scratch_ / "report", run(true), {.renderer = "synthetic", .seconds = 1.0}).string();
@@ -40,9 +43,9 @@ class Report : public testing::Test {
 
   // The page after its scripts ran.
   std::string dom(const std::string& query) const {
-    const Outcome o = runShell("timeout 60 chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --user-data-dir='" +
-                               (scratch_ / "profile") + "' --virtual-time-budget=5000 --dump-dom 'file://" + page_ +
-                               query + "'");
+    const Outcome o = runShell(
+        "timeout 60 chromium --headless --no-sandbox --disable-gpu --hide-scrollbars --user-data-dir='" +
+        (scratch_ / "profile") + "' --virtual-time-budget=5000 --dump-dom 'file://" + page_ + query + "'");
     EXPECT_EQ(o.status, 0) << "the report is tested in a browser: install the package chromium\n" << o.err;
     return o.out;
   }
@@ -68,7 +71,8 @@ TEST_F(Report, ShowsEveryFrameWorstFirstWithItsPictures) {
   ASSERT_NE(noise, std::string::npos);
   EXPECT_LT(box, digit);
   EXPECT_LT(digit, noise);
-  EXPECT_NE(page.find("<figure data-name=\"2_stable/tower_0\""), std::string::npos) << "unchanged frames are shown, too";
+  EXPECT_NE(page.find("<figure data-name=\"2_stable/tower_0\""), std::string::npos)
+      << "unchanged frames are shown, too";
   // Three changed frames with expected and actual, and the unchanged one.
   EXPECT_EQ(count(page, "data-loaded=\"640x360\""), 7u);
   EXPECT_EQ(count(page, "type=\"range\""), 3u);
@@ -81,7 +85,8 @@ TEST_F(Report, TheSliderCutsWhereItStands) {
 }
 
 TEST_F(Report, HeatMapDifferenceAndSideBySideCanBeOpened) {
-  for (const auto& [mode, pictures] : {std::pair<std::string, size_t>{"heat", 1}, {"difference", 1}, {"side", 2}}) {
+  for (const auto& [mode, pictures] :
+       {std::pair<std::string, size_t>{"heat", 1}, {"difference", 1}, {"side", 2}}) {
     const std::string page = dom("?frame=2_stable/tower_3&mode=" + mode);
     EXPECT_NE(page.find("class=\"view\" data-mode=\"" + mode + "\""), std::string::npos) << mode;
     EXPECT_EQ(count(page, "data-loaded=\"640x360\""), pictures) << mode;

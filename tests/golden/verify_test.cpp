@@ -1,4 +1,7 @@
-// The golden flow with synthetic pictures: what passes, what fails and why, approval, shards, JUnit and the report.
+// The golden flow with synthetic pictures: what passes, what fails and why, approval, shards, JUnit and the
+// report.
+#include "viewer/golden/verify.h"
+
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
@@ -9,7 +12,6 @@
 #include "viewer/golden/approve.h"
 #include "viewer/golden/junit.h"
 #include "viewer/golden/report.h"
-#include "viewer/golden/verify.h"
 #include "viewer/image/png.h"
 #include "viewer/input_error.h"
 
@@ -159,7 +161,8 @@ TEST_F(Golden, ApprovalNeedsAReasonAndLogsOneLine) {
   approve(run({.change = Change::ColourFivePercent}), settings_.golden_dir, "new\npaint");
   const std::string log = readText(dir_ / "golden" / "APPROVALS.md");
   EXPECT_EQ(std::count(log.begin(), log.end(), '\n'), 6) << log;  // head of four lines, two approvals
-  EXPECT_NE(log.find("first pictures - accepted 2_stable/tower_0, 2_stable/tower_60"), std::string::npos) << log;
+  EXPECT_NE(log.find("first pictures - accepted 2_stable/tower_0, 2_stable/tower_60"), std::string::npos)
+      << log;
   EXPECT_NE(log.find("new paint - accepted"), std::string::npos) << log;
 }
 
@@ -179,7 +182,8 @@ TEST_F(Golden, AnImageMayHaveItsOwnTolerance) {
   acceptAll();
   const fs::path file = dir_ / "golden" / "2_stable" / "tower_0.json";
   GoldenRecord record = readRecord(file);
-  record.tolerance = Tolerance{{.max_channel = 255, .pixels_over = 1.0, .max_block = 255.0f}, "shows a clock"};
+  record.tolerance =
+      Tolerance{{.max_channel = 255, .pixels_over = 1.0, .max_block = 255.0f}, "shows a clock"};
   writeRecord(file, record);
   const auto results = run({.change = Change::DigitChanged});
   EXPECT_TRUE(results[0].pass);
@@ -220,7 +224,8 @@ TEST_F(Golden, JUnitCountsFailuresAndEscapesText) {
 TEST_F(Golden, TheReportHoldsEveryPictureThatItShows) {
   acceptAll();
   auto results = run({.change = Change::LineMissing});
-  const fs::path index = writeReport(dir_ / "report", results, {.renderer = "painter </script>", .seconds = 1.0});
+  const fs::path index =
+      writeReport(dir_ / "report", results, {.renderer = "painter </script>", .seconds = 1.0});
   const std::string page = readText(index);
   const size_t begin = page.find("id=\"data\">") + 10;
   const std::string json = page.substr(begin, page.find("</script>", begin) - begin);

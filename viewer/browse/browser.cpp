@@ -5,6 +5,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "viewer/browse/ui_style.h"
 #include "viewer/image/png.h"
 #include "viewer/input_error.h"
 
@@ -18,7 +19,8 @@ constexpr double kFrameTime = 1.0 / 60.0;  // s, of a picture; faster is a waste
 
 std::unique_ptr<Window> open(const BrowseSettings& settings, const std::string& target) {
   try {
-    return openWindow({.width = settings.width, .height = settings.height, .title = "Vitrine", .visible = true});
+    return openWindow(
+        {.width = settings.width, .height = settings.height, .title = "Vitrine", .visible = true});
   } catch (const ContextError& error) {
     throw InputError(std::string("there is no display to open a window on (") + error.what() +
                      "); draw without one: vitrine render " + target + " --out pictures");
@@ -28,7 +30,8 @@ std::unique_ptr<Window> open(const BrowseSettings& settings, const std::string& 
 // Where there is a graphics processor four samples a pixel cost nothing.
 Quality qualityFor(GlContext& context) {
   const std::string rasterizer = Renderer::rasterizer(context);
-  const bool software = rasterizer.find("llvmpipe") != std::string::npos || rasterizer.find("softpipe") != std::string::npos;
+  const bool software =
+      rasterizer.find("llvmpipe") != std::string::npos || rasterizer.find("softpipe") != std::string::npos;
   return software ? Quality::Window : Quality::Ci;
 }
 
@@ -38,7 +41,8 @@ Browser::Browser(const BrowseOptions& options)
     : options_(options), scenes_(allScenes()), settings_(readSettings(settingsFile())) {
   if (scenes_.empty()) throw InputError("there are no scenes to show");
   const auto known = [&](const std::string& target) {
-    return std::any_of(scenes_.begin(), scenes_.end(), [&](const SceneSpec& s) { return s.target() == target; });
+    return std::any_of(scenes_.begin(), scenes_.end(),
+                       [&](const SceneSpec& s) { return s.target() == target; });
   };
   std::string target = known(settings_.target) ? settings_.target : scenes_.front().target();
   if (!options.target.empty()) target = findTarget(scenes_, options.target).front().target();
@@ -47,13 +51,15 @@ Browser::Browser(const BrowseOptions& options)
   setKeyMap(ImGui::GetIO());
   setUiStyle(std::max(1.0f, window_->poll().scale));
   renderer_ = std::make_unique<Renderer>(
-      *window_, RenderParams{.quality = qualityFor(*window_), .wire = false, .shader_dir = options.shader_dir});
+      *window_,
+      RenderParams{.quality = qualityFor(*window_), .wire = false, .shader_dir = options.shader_dir});
   session_.speed = settings_.speed;
   load(target);
 }
 
 void Browser::load(const std::string& target) {
-  const auto spec = std::find_if(scenes_.begin(), scenes_.end(), [&](const SceneSpec& s) { return s.target() == target; });
+  const auto spec =
+      std::find_if(scenes_.begin(), scenes_.end(), [&](const SceneSpec& s) { return s.target() == target; });
   if (spec == scenes_.end()) return;
   try {
     session_.settings.substeps.reset();
@@ -80,13 +86,14 @@ void Browser::restart() {
 }
 
 std::string Browser::title() const {
-  return session_.spec().target() + " - step " + std::to_string(session_.step()) + (session_.paused ? " - paused" : "") +
-         " - Vitrine";
+  return session_.spec().target() + " - step " + std::to_string(session_.step()) +
+         (session_.paused ? " - paused" : "") + " - Vitrine";
 }
 
 void Browser::record() {
   list_.begin();
-  if (follow_ && pickKind(selected_) == PickKind::Body && pickIndex(selected_) < session_.world().states().size())
+  if (follow_ && pickKind(selected_) == PickKind::Body &&
+      pickIndex(selected_) < session_.world().states().size())
     camera_.pose.target = session_.world().states()[pickIndex(selected_)].position;
   list_.camera = camera_.camera();
   view_->add(session_.world(), settings_.overlays);
@@ -106,9 +113,11 @@ FrameInput Browser::frameInput() const {
 void Browser::layOutPanels() {
   const float w = float(width_), h = float(height_), unit = ImGui::GetFontSize(), gap = 0.6f * unit;
   if (settings_.show_ui) {
-    const float bar = 2.7f * unit, left = 15.0f * unit, right = 21.0f * unit, drawer = settings_.show_costs ? 11.0f * unit : 0.0f;
+    const float bar = 2.7f * unit, left = 15.0f * unit, right = 21.0f * unit,
+                drawer = settings_.show_costs ? 11.0f * unit : 0.0f;
     const float sides = h - bar - 3.0f * gap - (drawer > 0.0f ? drawer + gap : 0.0f);
-    if (const auto target = sceneListPanel({gap, gap, left, sides}, scenes_, session_.spec().target(), list_state_))
+    if (const auto target =
+            sceneListPanel({gap, gap, left, sides}, scenes_, session_.spec().target(), list_state_))
       load(*target);
     const SideEdit side = sidePanel({w - right - gap, gap, right, sides}, session_,
                                     {&settings_.overlays, &session_.settings, selected_});
@@ -169,7 +178,8 @@ int Browser::run() {
     width_ = std::clamp(input.width, 1, 8192);
     height_ = std::clamp(input.height, 1, 8192);
     const bool busy = !session_.paused || resized || moved || input_.waiting() || !input.characters.empty() ||
-                      input.wheel_y != 0.0f || drag_ != DragMode::None || message_left_ > 0.0f || !input.keys.empty();
+                      input.wheel_y != 0.0f || drag_ != DragMode::None || message_left_ > 0.0f ||
+                      !input.keys.empty();
     idle = busy ? 0 : idle + 1;
     const auto now = Clock::now();
     const float dt = float(std::min(std::chrono::duration<double>(now - last).count(), 0.25));

@@ -1,4 +1,5 @@
-// The browser's state and what changes it. The loop is in browser.cpp, keys and mouse are in browser_input.cpp.
+// The browser's state and what changes it. The loop is in browser.cpp, keys and mouse are in
+// browser_input.cpp.
 #pragma once
 
 #include <imgui.h>

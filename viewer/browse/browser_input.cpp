@@ -9,9 +9,9 @@ namespace viewer {
 
 namespace {
 
-constexpr float kClickRadius = 4.0f;    // px, the mouse may move so far between press and release of a click
-constexpr float kFlySpeed = 0.9f;       // distances to the target a second
-constexpr float kThrowSpeed = 25.0f;    // m/s
+constexpr float kClickRadius = 4.0f;  // px, the mouse may move so far between press and release of a click
+constexpr float kFlySpeed = 0.9f;     // distances to the target a second
+constexpr float kThrowSpeed = 25.0f;  // m/s
 
 pfx::Aabb boundsOf(const pfx::World& world, uint32_t body) {
   const pfx::Collidable& c = world.collidables()[body];
@@ -35,12 +35,15 @@ void Browser::handleKeys(const UiInput::Frame& input, float dt) {
   for (const KeyEvent& event : input.keys) {
     const auto command = commandOf(event);
     // While text is being entered only keys that cannot be part of it are ours.
-    if (command && (!ImGui::GetIO().WantTextInput || event.control || event.key == key::kF1 || event.key == key::kF12))
+    if (command &&
+        (!ImGui::GetIO().WantTextInput || event.control || event.key == key::kF1 || event.key == key::kF12))
       execute(*command);
   }
   if (ImGui::GetIO().WantTextInput || input.control || input.shift) return;
   pfx::Vec3 way = pfx::Vec3::Zero();
-  const auto pushed = [&](int plus, int minus) { return float(input.isDown(plus)) - float(input.isDown(minus)); };
+  const auto pushed = [&](int plus, int minus) {
+    return float(input.isDown(plus)) - float(input.isDown(minus));
+  };
   way << pushed('D', 'A'), pushed('E', 'Q'), pushed('W', 'S');
   if (!way.isZero()) camera_.fly(kFlySpeed * dt * way);
 }
@@ -56,7 +59,8 @@ void Browser::handleMouse(const UiInput::Frame& input) {
   if (drag_ == DragMode::Pull && session_.grab) {
     const Camera camera = camera_.camera();
     const PickRay ray = pickRay(camera, mouse_x_, mouse_y_, width_, height_);
-    session_.grab->target = ray.origin + ray.direction * (pull_depth_ / ray.direction.dot(axes(camera).forward));
+    session_.grab->target =
+        ray.origin + ray.direction * (pull_depth_ / ray.direction.dot(axes(camera).forward));
   }
   for (const ButtonEvent& event : input.buttons) {
     if (event.down && !over_ui && drag_ == DragMode::None) {
@@ -104,35 +108,82 @@ void Browser::execute(BrowseCommand command) {
     step();
   };
   switch (command) {
-    case BrowseCommand::Pause: session_.paused = !session_.paused; break;
-    case BrowseCommand::Step: stepping([&] { session_.stepForward(1); }); break;
-    case BrowseCommand::StepFive: stepping([&] { session_.stepForward(5); }); break;
-    case BrowseCommand::StepBack: stepping([&] { session_.stepBack(1); }); break;
-    case BrowseCommand::StepBackFive: stepping([&] { session_.stepBack(5); }); break;
-    case BrowseCommand::Restart: restart(); break;
-    case BrowseCommand::NextScene: changeScene(1); break;
-    case BrowseCommand::PreviousScene: changeScene(-1); break;
-    case BrowseCommand::Slower: session_.speed = std::max(0.05f, 0.5f * session_.speed); break;
-    case BrowseCommand::Faster: session_.speed = std::min(4.0f, 2.0f * session_.speed); break;
-    case BrowseCommand::Find: settings_.show_ui = list_state_.focus_filter = true; break;
-    case BrowseCommand::Throw: throwBall(); break;
-    case BrowseCommand::Screenshot: screenshot_ = true; break;
-    case BrowseCommand::ToggleUi: settings_.show_ui = !settings_.show_ui; break;
-    case BrowseCommand::ToggleCosts: settings_.show_costs = !settings_.show_costs; break;
-    case BrowseCommand::Help: help_ = !help_; break;
-    case BrowseCommand::Quit: quit_ = true; break;
-    default: break;
+    case BrowseCommand::Pause:
+      session_.paused = !session_.paused;
+      break;
+    case BrowseCommand::Step:
+      stepping([&] { session_.stepForward(1); });
+      break;
+    case BrowseCommand::StepFive:
+      stepping([&] { session_.stepForward(5); });
+      break;
+    case BrowseCommand::StepBack:
+      stepping([&] { session_.stepBack(1); });
+      break;
+    case BrowseCommand::StepBackFive:
+      stepping([&] { session_.stepBack(5); });
+      break;
+    case BrowseCommand::Restart:
+      restart();
+      break;
+    case BrowseCommand::NextScene:
+      changeScene(1);
+      break;
+    case BrowseCommand::PreviousScene:
+      changeScene(-1);
+      break;
+    case BrowseCommand::Slower:
+      session_.speed = std::max(0.05f, 0.5f * session_.speed);
+      break;
+    case BrowseCommand::Faster:
+      session_.speed = std::min(4.0f, 2.0f * session_.speed);
+      break;
+    case BrowseCommand::Find:
+      settings_.show_ui = list_state_.focus_filter = true;
+      break;
+    case BrowseCommand::Throw:
+      throwBall();
+      break;
+    case BrowseCommand::Screenshot:
+      screenshot_ = true;
+      break;
+    case BrowseCommand::ToggleUi:
+      settings_.show_ui = !settings_.show_ui;
+      break;
+    case BrowseCommand::ToggleCosts:
+      settings_.show_costs = !settings_.show_costs;
+      break;
+    case BrowseCommand::Help:
+      help_ = !help_;
+      break;
+    case BrowseCommand::Quit:
+      quit_ = true;
+      break;
+    default:
+      break;
   }
 }
 
 bool Browser::executeView(BrowseCommand command) {
   switch (command) {
-    case BrowseCommand::Frame: frameSelection(); return true;
-    case BrowseCommand::ResetCamera: camera_ = {.pose = session_.spec().camera, .orthographic = false}; return true;
-    case BrowseCommand::ViewFront: camera_.lookFrom(0.0f, 0.0f); return true;
-    case BrowseCommand::ViewSide: camera_.lookFrom(90.0f, 0.0f); return true;
-    case BrowseCommand::ViewTop: camera_.lookFrom(0.0f, 89.9f); return true;
-    case BrowseCommand::Orthographic: camera_.orthographic = !camera_.orthographic; return true;
+    case BrowseCommand::Frame:
+      frameSelection();
+      return true;
+    case BrowseCommand::ResetCamera:
+      camera_ = {.pose = session_.spec().camera, .orthographic = false};
+      return true;
+    case BrowseCommand::ViewFront:
+      camera_.lookFrom(0.0f, 0.0f);
+      return true;
+    case BrowseCommand::ViewSide:
+      camera_.lookFrom(90.0f, 0.0f);
+      return true;
+    case BrowseCommand::ViewTop:
+      camera_.lookFrom(0.0f, 89.9f);
+      return true;
+    case BrowseCommand::Orthographic:
+      camera_.orthographic = !camera_.orthographic;
+      return true;
     case BrowseCommand::Follow:
       follow_ = !follow_;
       say(follow_ ? "the view follows the selection" : "the view stays");
@@ -141,7 +192,8 @@ bool Browser::executeView(BrowseCommand command) {
       selected_ = 0;
       follow_ = help_ = false;
       return true;
-    default: return false;
+    default:
+      return false;
   }
 }
 
@@ -152,14 +204,22 @@ bool Browser::executeOverlay(BrowseCommand command) {
     return true;
   };
   switch (command) {
-    case BrowseCommand::ToggleAabb: return toggle(o.aabb);
-    case BrowseCommand::ToggleAxes: return toggle(o.axes);
-    case BrowseCommand::ToggleContacts: return toggle(o.contacts);
-    case BrowseCommand::ToggleIslands: return toggle(o.islands);
-    case BrowseCommand::ToggleJoints: return toggle(o.joints);
-    case BrowseCommand::ToggleVelocity: return toggle(o.velocity);
-    case BrowseCommand::ToggleWorld: return toggle(o.world);
-    default: return false;
+    case BrowseCommand::ToggleAabb:
+      return toggle(o.aabb);
+    case BrowseCommand::ToggleAxes:
+      return toggle(o.axes);
+    case BrowseCommand::ToggleContacts:
+      return toggle(o.contacts);
+    case BrowseCommand::ToggleIslands:
+      return toggle(o.islands);
+    case BrowseCommand::ToggleJoints:
+      return toggle(o.joints);
+    case BrowseCommand::ToggleVelocity:
+      return toggle(o.velocity);
+    case BrowseCommand::ToggleWorld:
+      return toggle(o.world);
+    default:
+      return false;
   }
 }
 
@@ -173,7 +233,8 @@ void Browser::changeScene(int by) {
 void Browser::frameSelection() {
   const pfx::World& world = session_.world();
   const uint32_t body = pickIndex(selected_);
-  const bool one = pickKind(selected_) == PickKind::Body && body < world.states().size() && world.bodyId(body);
+  const bool one =
+      pickKind(selected_) == PickKind::Body && body < world.states().size() && world.bodyId(body);
   camera_.frame(one ? boundsOf(world, body) : sceneBounds(world));
 }
 

@@ -11,8 +11,8 @@ namespace {
 using pfx::Vec3;
 using Clock = std::chrono::steady_clock;
 
-constexpr double kFrameBudget = 0.05;   // s of computing that one call of advance may take
-constexpr double kMaxDue = 0.1;         // s of simulation that a slow frame may leave for the next
+constexpr double kFrameBudget = 0.05;  // s of computing that one call of advance may take
+constexpr double kMaxDue = 0.1;        // s of simulation that a slow frame may leave for the next
 
 RecordedFrame capture(const pfx::World& world) {
   RecordedFrame frame{world.stepCount(), world.stateHash(), {}};
@@ -66,7 +66,8 @@ void Session::measure() {
   double total = 0.0;
   for (const pfx::StageTime& stage : world().stageTimes()) {
     total += stage.milliseconds;
-    auto found = std::find_if(costs_.begin(), costs_.end(), [&](const StageCost& c) { return c.name == stage.name; });
+    auto found =
+        std::find_if(costs_.begin(), costs_.end(), [&](const StageCost& c) { return c.name == stage.name; });
     if (found == costs_.end()) found = costs_.insert(costs_.end(), StageCost{stage.name, {}});
     push(found->recent, stage.milliseconds);
   }
@@ -76,11 +77,11 @@ void Session::measure() {
   push(penetrations_, figures_.max_penetration);
 }
 
-// A damped spring between the held point and the mouse, no stronger than a few times the weight of the body. Position
-// and velocity are those of the held point, so that the body swings under it.
+// A damped spring between the held point and the mouse, no stronger than a few times the weight of the body.
+// Position and velocity are those of the held point, so that the body swings under it.
 void Session::pull() {
   if (!grab || !world().isValid(grab->body)) return;
-  constexpr float kRate = 10.0f;           // rad/s, of the spring
+  constexpr float kRate = 10.0f;              // rad/s, of the spring
   constexpr float kMaxAcceleration = 120.0f;  // m/s^2
   pfx::RigidState& s = world().state(grab->body);
   const Vec3 arm = s.orientation * grab->local;

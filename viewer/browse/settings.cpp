@@ -66,8 +66,12 @@ BrowseSettings readSettings(const std::filesystem::path& file) {
 
 void writeSettings(const std::filesystem::path& file, const BrowseSettings& s) {
   if (file.empty()) return;
-  const Json json = {{"width", s.width},       {"height", s.height},         {"target", s.target},
-                     {"speed", s.speed},       {"show_ui", s.show_ui},       {"show_costs", s.show_costs},
+  const Json json = {{"width", s.width},
+                     {"height", s.height},
+                     {"target", s.target},
+                     {"speed", s.speed},
+                     {"show_ui", s.show_ui},
+                     {"show_costs", s.show_costs},
                      {"overlays", overlayList(s.overlays)}};
   try {
     writeText(file, json.dump(2) + "\n");

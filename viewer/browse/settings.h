@@ -18,10 +18,12 @@ struct BrowseSettings {
   bool operator==(const BrowseSettings&) const = default;
 };
 
-// vitrine/browse.json in the user's folder for settings (XDG_CONFIG_HOME or ~/.config); empty when there is none.
+// vitrine/browse.json in the user's folder for settings (XDG_CONFIG_HOME or ~/.config); empty when there is
+// none.
 std::filesystem::path settingsFile();
 
-// Defaults for whatever is missing, damaged or out of range: old settings never keep the browser from starting.
+// Defaults for whatever is missing, damaged or out of range: old settings never keep the browser from
+// starting.
 BrowseSettings readSettings(const std::filesystem::path& file);
 // A folder that cannot be written to is no reason to fail: then nothing is remembered.
 void writeSettings(const std::filesystem::path& file, const BrowseSettings& settings);

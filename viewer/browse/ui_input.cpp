@@ -67,8 +67,12 @@ void setKeyMap(ImGuiIO& io) {
   io.KeyMap[ImGuiKey_Enter] = key::kEnter;
   io.KeyMap[ImGuiKey_Escape] = key::kEscape;
   io.KeyMap[ImGuiKey_KeyPadEnter] = key::kKeypadEnter;
-  for (const auto [map, letter] : {std::pair(ImGuiKey_A, 'A'), {ImGuiKey_C, 'C'}, {ImGuiKey_V, 'V'},
-                                   {ImGuiKey_X, 'X'}, {ImGuiKey_Y, 'Y'}, {ImGuiKey_Z, 'Z'}})
+  for (const auto& [map, letter] : {std::pair(ImGuiKey_A, 'A'),
+                                    {ImGuiKey_C, 'C'},
+                                    {ImGuiKey_V, 'V'},
+                                    {ImGuiKey_X, 'X'},
+                                    {ImGuiKey_Y, 'Y'},
+                                    {ImGuiKey_Z, 'Z'}})
     io.KeyMap[map] = letter;
 }
 

@@ -1,7 +1,7 @@
 // Feeds window input to Dear ImGui, one change of a button or key a frame.
 //
-// Version 1.86 of the library looks at the state of buttons once a frame: a press and a release that arrive together
-// would never be seen. What cannot be shown in this frame waits for the next.
+// Version 1.86 of the library looks at the state of buttons once a frame: a press and a release that arrive
+// together would never be seen. What cannot be shown in this frame waits for the next.
 #pragma once
 
 #include <deque>
@@ -19,14 +19,14 @@ class UiInput {
   void add(const WindowInput& input);
 
   struct Frame {
-    std::vector<KeyEvent> keys;        // presses and releases that this frame shows
+    std::vector<KeyEvent> keys;  // presses and releases that this frame shows
     std::vector<ButtonEvent> buttons;
     std::vector<uint32_t> characters;
     float mouse_x = -1.0f, mouse_y = -1.0f, wheel_x = 0.0f, wheel_y = 0.0f;
-    bool held[3] = {};                 // buttons after this frame's events
+    bool held[3] = {};  // buttons after this frame's events
     bool control = false, shift = false, alt = false;
     bool isDown(int key) const { return down.contains(key) && down.at(key); }
-    std::map<int, bool> down;          // keys after this frame's events
+    std::map<int, bool> down;  // keys after this frame's events
   };
   // The next frame: every button and key changes at most once in it.
   const Frame& next();

@@ -17,9 +17,11 @@ constexpr const char* kFonts[] = {"/usr/share/fonts/truetype/dejavu/DejaVuSans.t
 void addFont(ImFontAtlas& fonts, float scale) {
   std::error_code ignored;
   for (const char* file : kFonts)
-    if (std::filesystem::exists(file, ignored) && fonts.AddFontFromFileTTF(file, std::round(14.0f * scale))) return;
+    if (std::filesystem::exists(file, ignored) && fonts.AddFontFromFileTTF(file, std::round(14.0f * scale)))
+      return;
   ImFontConfig config;
-  config.SizePixels = 13.0f * std::max(1.0f, std::round(scale));  // a bitmap font: only whole factors look right
+  config.SizePixels =
+      13.0f * std::max(1.0f, std::round(scale));  // a bitmap font: only whole factors look right
   fonts.AddFontDefault(&config);
 }
 
@@ -50,9 +52,12 @@ void setUiStyle(float scale) {
   c[ImGuiCol_SliderGrab] = ImVec4(0.86f, 0.56f, 0.33f, 1.0f);
   c[ImGuiCol_SliderGrabActive] = ImVec4(0.76f, 0.44f, 0.22f, 1.0f);
   c[ImGuiCol_CheckMark] = ImVec4(0.76f, 0.42f, 0.18f, 1.0f);
+  c[ImGuiCol_TableHeaderBg] = ImVec4(0.90f, 0.90f, 0.89f, 1.0f);
+  c[ImGuiCol_TableRowBgAlt] = ImVec4(0.30f, 0.30f, 0.30f, 0.05f);
   c[ImGuiCol_PlotLines] = ImVec4(0.30f, 0.45f, 0.62f, 1.0f);
   style.ScaleAllSizes(scale);
   addFont(*ImGui::GetIO().Fonts, scale);
+  ImGui::GetIO().Fonts->Build();
 }
 
 }  // namespace viewer

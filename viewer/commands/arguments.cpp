@@ -56,8 +56,9 @@ std::vector<int> parseFrames(const std::string& text) {
   for (const std::string& part : splitAt(text, ',')) {
     const auto frame = parseWithin(part, 0, kMaxFrame);
     if (!frame)
-      fail("--frames", text, "\"" + part + "\" is not a frame number (0 .. " + std::to_string(kMaxFrame) +
-                                 "); example: --frames 0,60,120");
+      fail("--frames", text,
+           "\"" + part + "\" is not a frame number (0 .. " + std::to_string(kMaxFrame) +
+               "); example: --frames 0,60,120");
     frames.push_back(*frame);
   }
   std::sort(frames.begin(), frames.end());
@@ -70,7 +71,8 @@ PixelSize parseSize(const std::string& text) {
   const auto width = parseWithin(parts[0], 1, kMaxSide);
   const auto height = parts.size() == 2 ? parseWithin(parts[1], 1, kMaxSide) : std::nullopt;
   if (!width || !height)
-    fail("--size", text, "not WIDTHxHEIGHT in pixels (1 .. " + std::to_string(kMaxSide) + "); example: --size 640x360");
+    fail("--size", text,
+         "not WIDTHxHEIGHT in pixels (1 .. " + std::to_string(kMaxSide) + "); example: --size 640x360");
   return {*width, *height};
 }
 
@@ -87,7 +89,8 @@ std::vector<int> parseThreads(const std::string& text) {
   for (const std::string& part : splitAt(text, ',')) {
     const auto number = parseWithin(part, 1, kMaxThreads);
     if (!number)
-      fail("--threads", text, "\"" + part + "\" is not a number of threads (1 .. " + std::to_string(kMaxThreads) + ")");
+      fail("--threads", text,
+           "\"" + part + "\" is not a number of threads (1 .. " + std::to_string(kMaxThreads) + ")");
     threads.push_back(*number);
   }
   return threads;
@@ -105,13 +108,17 @@ samples::CameraPose parseCamera(const std::string& text, samples::CameraPose bas
     const std::string key = part.substr(0, equals);
     const std::string value = equals == std::string::npos ? "" : part.substr(equals + 1);
     const std::vector<std::string> numbers = splitAt(value, '/');
-    if (key == "yaw") base.yaw_deg = parseFinite(value, text);
-    else if (key == "pitch") base.pitch_deg = parseFinite(value, text);
-    else if (key == "distance") base.distance = parseFinite(value, text);
+    if (key == "yaw")
+      base.yaw_deg = parseFinite(value, text);
+    else if (key == "pitch")
+      base.pitch_deg = parseFinite(value, text);
+    else if (key == "distance")
+      base.distance = parseFinite(value, text);
     else if (key == "target" && numbers.size() == 3)
       for (int i = 0; i < 3; ++i) base.target[i] = parseFinite(numbers[size_t(i)], text);
     else
-      fail("--camera", text, "\"" + part + "\" is not known; example: --camera yaw=30,pitch=20,distance=12,target=0/1/0");
+      fail("--camera", text,
+           "\"" + part + "\" is not known; example: --camera yaw=30,pitch=20,distance=12,target=0/1/0");
   }
   if (!(base.distance > 0.0f)) fail("--camera", text, "distance must be positive");
   return base;

@@ -58,20 +58,22 @@ void printRace(std::span<const bench::Result> results) {
     if (!r.supported)
       std::printf("  %-24s cannot run this scene\n", r.engine.c_str());
     else
-      std::printf("  %-24s %10.3f %10.2f %10.3f %12.4g\n", r.engine.c_str(), r.ms_per_step.median, r.ratio.median,
-                  r.worst_ms, r.largest_drift);
+      std::printf("  %-24s %10.3f %10.2f %10.3f %12.4g\n", r.engine.c_str(), r.ms_per_step.median,
+                  r.ratio.median, r.worst_ms, r.largest_drift);
   }
 }
 
 ordered_json resultJson(const bench::Result& r) {
   if (!r.supported) return {{"engine", r.engine}, {"supported", false}};
-  return {{"engine", r.engine},
-          {"supported", true},
-          {"ms_per_step", {{"median", r.ms_per_step.median}, {"lower", r.ms_per_step.lower}, {"upper", r.ms_per_step.upper}}},
-          {"ratio", r.ratio.median},
-          {"worst_ms", r.worst_ms},
-          {"kinetic_energy", r.kinetic_energy},
-          {"largest_drift", r.largest_drift}};
+  return {
+      {"engine", r.engine},
+      {"supported", true},
+      {"ms_per_step",
+       {{"median", r.ms_per_step.median}, {"lower", r.ms_per_step.lower}, {"upper", r.ms_per_step.upper}}},
+      {"ratio", r.ratio.median},
+      {"worst_ms", r.worst_ms},
+      {"kinetic_energy", r.kinetic_energy},
+      {"largest_drift", r.largest_drift}};
 }
 
 ordered_json runCase(const bench::Case& c, const std::vector<int>& threads, int steps) {
@@ -80,12 +82,16 @@ ordered_json runCase(const bench::Case& c, const std::vector<int>& threads, int 
     contestants.push_back(bench::pfxEngine(c, n));
   }
   for (const bench::EngineKind& peer : bench::peers()) contestants.push_back(peer);
-  std::fprintf(stderr, "bench: %s, %d steps in %zu engines\n", std::string(c.name).c_str(), steps, contestants.size());
+  std::fprintf(stderr, "bench: %s, %d steps in %zu engines\n", std::string(c.name).c_str(), steps,
+               contestants.size());
   const std::vector<bench::Result> results = bench::race(c, contestants, steps);
 
   std::printf("%s: %s\n", std::string(c.name).c_str(), std::string(c.shows).c_str());
   printRace(results);
-  ordered_json json = {{"case", c.name}, {"steps", steps}, {"engines", ordered_json::array()}, {"stages", ordered_json::array()}};
+  ordered_json json = {{"case", c.name},
+                       {"steps", steps},
+                       {"engines", ordered_json::array()},
+                       {"stages", ordered_json::array()}};
   for (const bench::Result& r : results) json["engines"].push_back(resultJson(r));
   for (int n : threads) {
     ordered_json ms = ordered_json::object();
@@ -112,11 +118,14 @@ int runBench(const Options& options) {
 }  // namespace
 
 void addBenchCommand(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("bench", "Time the benchmark scenes, by stage and beside installed peers");
+  CLI::App* command =
+      app.add_subcommand("bench", "Time the benchmark scenes, by stage and beside installed peers");
   const auto options = std::make_shared<Options>();
   command->add_option("CASE", options->cases, "Benchmark scenes; none: all");
-  command->add_option("--threads", options->threads, "Numbers of threads, for example 1,2")->capture_default_str();
-  command->add_option("--steps", options->steps, "Steps of each; default as the case says")->check(CLI::Range(1, 100000));
+  command->add_option("--threads", options->threads, "Numbers of threads, for example 1,2")
+      ->capture_default_str();
+  command->add_option("--steps", options->steps, "Steps of each; default as the case says")
+      ->check(CLI::Range(1, 100000));
   command->add_option("--json", options->json, "Write the figures to a file");
   command->callback([&action, options] { action = [options] { return runBench(*options); }; });
 }

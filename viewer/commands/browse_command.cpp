@@ -5,7 +5,8 @@
 namespace viewer {
 
 void addBrowseCommand(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("browse", "The interactive browser; also what runs without a command");
+  CLI::App* command =
+      app.add_subcommand("browse", "The interactive browser; also what runs without a command");
   const auto options = std::make_shared<BrowseOptions>();
   command->add_option("TARGET", options->target, "SAMPLE[/SCENE] to begin with");
   command->add_option("--frames", options->frames, "Close after so many pictures");

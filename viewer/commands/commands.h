@@ -1,6 +1,8 @@
-// The subcommands of the program: each adds its options to the command line and sets what to do when it is chosen.
+// The subcommands of the program: each adds its options to the command line and sets what to do when it is
+// chosen.
 //
-// Exit status: 0 success, 1 a comparison or check failed, 2 bad usage or bad input (an exception, told in one line).
+// Exit status: 0 success, 1 a comparison or check failed, 2 bad usage or bad input (an exception, told in one
+// line).
 #pragma once
 
 #include <CLI/CLI.hpp>

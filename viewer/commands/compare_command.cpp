@@ -15,12 +15,9 @@ struct Options {
 };
 
 nlohmann::ordered_json describe(const Verdict& v, const FlipResult* flip) {
-  nlohmann::ordered_json json = {{"equal", v.exact},
-                                 {"verdict", v.pass ? "pass" : "fail"},
-                                 {"why", v.why},
-                                 {"pixels_over", nullptr},
-                                 {"max_channel", nullptr},
-                                 {"max_block", nullptr},
+  nlohmann::ordered_json json = {{"equal", v.exact},       {"verdict", v.pass ? "pass" : "fail"},
+                                 {"why", v.why},           {"pixels_over", nullptr},
+                                 {"max_channel", nullptr}, {"max_block", nullptr},
                                  {"mean_flip", nullptr}};
   if (!flip) return json;  // the sizes differ: there is nothing to measure
   json["pixels_over"] = v.difference.pixels_over;
@@ -38,7 +35,8 @@ void printText(const Verdict& v, const FlipResult* flip) {
   const ImageDifference& d = v.difference;
   std::printf("largest channel difference  %d levels\n", d.max_channel);
   std::printf("pixels over %d levels        %u\n", kVisibleLevels, d.pixels_over);
-  std::printf("worst 8x8 block             %.3f levels at %d, %d\n", double(d.max_block), d.worst_x, d.worst_y);
+  std::printf("worst 8x8 block             %.3f levels at %d, %d\n", double(d.max_block), d.worst_x,
+              d.worst_y);
   std::printf("FLIP mean, worst block      %.5f, %.4f\n", double(flip->mean), double(flip->max_block));
 }
 
@@ -60,13 +58,15 @@ int compare(const Options& options) {
 }  // namespace
 
 void addCompareCommand(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("compare", "The image metric on two PNG files; exit 1 when they do not match");
+  CLI::App* command =
+      app.add_subcommand("compare", "The image metric on two PNG files; exit 1 when they do not match");
   const auto options = std::make_shared<Options>();
   command->add_option("A", options->a, "Golden image")->required();
   command->add_option("B", options->b, "Image to judge")->required();
   command->add_option("--diff", options->diff, "Write the difference, 8 times amplified, as PNG");
   command->add_option("--heat", options->heat, "Write the FLIP heat map as PNG");
-  command->add_flag("--other-rasteriser", options->other_rasteriser, "Judge by the looser rule for another rasteriser");
+  command->add_flag("--other-rasteriser", options->other_rasteriser,
+                    "Judge by the looser rule for another rasteriser");
   command->add_flag("--json", options->json, "Print JSON");
   command->callback([&action, options] { action = [options] { return compare(*options); }; });
 }

@@ -6,6 +6,7 @@
 #include "viewer/commands/commands.h"
 #include "viewer/input_error.h"
 #include "viewer/run/scene_run.h"
+#include "viewer/run/sleep_facts.h"
 
 namespace viewer {
 namespace {
@@ -30,12 +31,18 @@ ordered_json islandsJson(const pfx::World& world) {
     const pfx::IslandView view = world.island(i);
     auto bodies = ordered_json::array();
     for (uint32_t body : view.bodies) bodies.push_back(bodyJson(world, body));
+    const SleepFacts sleep = explainSleep(world, i);
+    ordered_json fastest = bodyJson(world, sleep.fastest);
+    fastest["linear_speed"] = sleep.linear_speed;
+    fastest["angular_speed"] = sleep.angular_speed;
     islands.push_back({{"id", i},
                        {"bodies", std::move(bodies)},
                        {"contacts", view.contacts.size()},
-                       {"joints", 0},
+                       {"joints", view.joints},
                        {"asleep", view.asleep},
-                       {"sleep_timer", view.sleep_timer}});
+                       {"sleep_timer", view.sleep_timer},
+                       {"why", sleep.why},
+                       {"fastest", std::move(fastest)}});
   }
   return islands;
 }
@@ -97,32 +104,36 @@ std::string nameOf(const ordered_json& body) {
 std::string memberList(const ordered_json& bodies) {
   constexpr size_t kShown = 8;
   std::string members;
-  for (size_t i = 0; i < std::min(kShown, bodies.size()); ++i) members += (i > 0 ? ", " : "") + nameOf(bodies[i]);
+  for (size_t i = 0; i < std::min(kShown, bodies.size()); ++i)
+    members += (i > 0 ? ", " : "") + nameOf(bodies[i]);
   if (bodies.size() > kShown) members += " and " + std::to_string(bodies.size() - kShown) + " more";
   return members;
 }
 
 void printText(const ordered_json& json) {
   std::printf("%s, frame %d\n", json["target"].get<std::string>().c_str(), json["frame"].get<int>());
-  for (const auto& [key, value] : json["counts"].items()) std::printf("  %-16s%u\n", key.c_str(), value.get<uint32_t>());
+  for (const auto& [key, value] : json["counts"].items())
+    std::printf("  %-16s%u\n", key.c_str(), value.get<uint32_t>());
   if (json.contains("islands")) {
-    std::printf("\nisland  bodies  contacts  state   still for s  members\n");
+    std::printf("\nisland  bodies  contacts  still for s  why, members\n");
     for (const auto& island : json["islands"]) {
       const std::string members = memberList(island["bodies"]);
-      std::printf("%6u  %6zu  %8zu  %-6s  %11.2f  %s\n", island["id"].get<uint32_t>(), island["bodies"].size(),
-                  island["contacts"].get<size_t>(), island["asleep"].get<bool>() ? "asleep" : "awake",
-                  island["sleep_timer"].get<double>(), members.c_str());
+      std::printf("%6u  %6zu  %8zu  %11.2f  %s\n%39s%s\n", island["id"].get<uint32_t>(),
+                  island["bodies"].size(), island["contacts"].get<size_t>(),
+                  island["sleep_timer"].get<double>(), island["why"].get<std::string>().c_str(), "",
+                  members.c_str());
     }
   }
   if (json.contains("contacts")) {
-    std::printf("\ncontacts: position (m), normal from the first to the second, distance (m), impulse (N s)\n");
+    std::printf(
+        "\ncontacts: position (m), normal from the first to the second, distance (m), impulse (N s)\n");
     for (const auto& contact : json["contacts"]) {
       std::printf("%s - %s\n", nameOf(contact["body_a"]).c_str(), nameOf(contact["body_b"]).c_str());
       for (const auto& p : contact["points"])
         std::printf("  (%.4f, %.4f, %.4f)  (%.3f, %.3f, %.3f)  %+.6f  %.5f\n", p["position"][0].get<double>(),
-                    p["position"][1].get<double>(), p["position"][2].get<double>(), p["normal"][0].get<double>(),
-                    p["normal"][1].get<double>(), p["normal"][2].get<double>(), p["distance"].get<double>(),
-                    p["impulse"].get<double>());
+                    p["position"][1].get<double>(), p["position"][2].get<double>(),
+                    p["normal"][0].get<double>(), p["normal"][1].get<double>(), p["normal"][2].get<double>(),
+                    p["distance"].get<double>(), p["impulse"].get<double>());
     }
   }
 }
@@ -144,7 +155,9 @@ void addInspectCommand(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("inspect", "Islands and contacts of one frame, as text or JSON");
   const auto options = std::make_shared<Options>();
   command->add_option("TARGET", options->target, "SAMPLE/SCENE")->required();
-  command->add_option("--frame", options->frame, "Steps to run first")->check(CLI::Range(0, 1000000))->required();
+  command->add_option("--frame", options->frame, "Steps to run first")
+      ->check(CLI::Range(0, 1000000))
+      ->required();
   command->add_flag("--islands", options->islands, "Only islands (with --contacts: both)");
   command->add_flag("--contacts", options->contacts, "Only contacts");
   command->add_flag("--json", options->json, "Print JSON");

@@ -9,8 +9,8 @@
 namespace viewer {
 namespace {
 
-// A world reports the stages of its last step, so that a scene has to run a little to show all: one second, in which
-// what falls has landed. Stages that appear later are put behind the one that runs before them.
+// A world reports the stages of its last step, so that a scene has to run a little to show all: one second,
+// in which what falls has landed. Stages that appear later are put behind the one that runs before them.
 std::vector<std::string> stagesOf(const SceneSpec& spec) {
   constexpr int kSteps = 60;
   SceneRun run(spec);
@@ -46,7 +46,8 @@ int listText(std::span<const SceneSpec> scenes) {
     sample = s.sample;
     std::printf("  %-24s %s\n  %-24s stages:", s.name.c_str(), s.shows.c_str(), "");
     const char* separator = " ";
-    for (const std::string& stage : stagesOf(s)) std::printf("%s%s", separator, stage.c_str()), separator = ", ";
+    for (const std::string& stage : stagesOf(s))
+      std::printf("%s%s", separator, stage.c_str()), separator = ", ";
     std::printf("\n");
   }
   return 0;
@@ -58,9 +59,8 @@ void addListCommand(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("list", "Samples, scenes, and the stages that each one runs");
   const auto json = std::make_shared<bool>(false);
   command->add_flag("--json", *json, "Print JSON");
-  command->callback([&action, json] {
-    action = [json] { return *json ? listJson(allScenes()) : listText(allScenes()); };
-  });
+  command->callback(
+      [&action, json] { action = [json] { return *json ? listJson(allScenes()) : listText(allScenes()); }; });
 }
 
 }  // namespace viewer

@@ -1,7 +1,7 @@
 // vitrine measure: runs a scene without drawing it and prints its figures.
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <map>
 #include <nlohmann/json.hpp>
 
 #include "viewer/commands/arguments.h"
@@ -9,6 +9,7 @@
 #include "viewer/golden/golden_record.h"
 #include "viewer/input_error.h"
 #include "viewer/run/figures.h"
+#include "viewer/run/progress.h"
 #include "viewer/run/scene_run.h"
 
 namespace viewer {
@@ -30,14 +31,15 @@ struct Options {
 struct Measured {
   Figures final;
   double max_penetration = 0.0, max_joint_error = 0.0, max_speed = 0.0;
-  double total_ms = 0.0;                                  // all steps
-  std::vector<std::pair<std::string, double>> stage_ms;   // all steps, in the order of the stages
+  double total_ms = 0.0;                                 // all steps
+  std::vector<std::pair<std::string, double>> stage_ms;  // all steps, in the order of the stages
   ordered_json per_step = ordered_json::array();
 };
 
 void addStageTimes(Measured& m, const pfx::World& world) {
   for (const pfx::StageTime& t : world.stageTimes()) {
-    auto slot = std::find_if(m.stage_ms.begin(), m.stage_ms.end(), [&](const auto& s) { return s.first == t.name; });
+    auto slot =
+        std::find_if(m.stage_ms.begin(), m.stage_ms.end(), [&](const auto& s) { return s.first == t.name; });
     if (slot == m.stage_ms.end()) slot = m.stage_ms.insert(slot, {t.name, 0.0});
     slot->second += t.milliseconds;
   }
@@ -62,7 +64,9 @@ ordered_json figuresJson(const Figures& f) {
 
 Measured runSteps(SceneRun& run, const Options& options) {
   Measured m;
+  Progress progress("measure " + run.spec().target(), uint64_t(options.steps));
   for (int i = 0; i < options.steps; ++i) {
+    progress.at(uint64_t(i));
     const auto start = std::chrono::steady_clock::now();
     run.step();
     m.total_ms += std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - start).count();
@@ -116,7 +120,8 @@ ordered_json describe(const SceneRun& run, const Measured& m, const Options& opt
 
 void printText(const ordered_json& json) {
   std::printf("%s: %d steps of %.6g s, %d sub-steps, %d threads\n", json["target"].get<std::string>().c_str(),
-              json["steps"].get<int>(), json["dt"].get<double>(), json["substeps"].get<int>(), json["threads"].get<int>());
+              json["steps"].get<int>(), json["dt"].get<double>(), json["substeps"].get<int>(),
+              json["threads"].get<int>());
   std::printf("state hash        %s\n", json["state_hash"].get<std::string>().c_str());
   const auto row = [](const std::string& name, const ordered_json& value) {
     std::printf("%-18s%s\n", name.c_str(), value.dump().c_str());
@@ -135,11 +140,13 @@ void printText(const ordered_json& json) {
 }
 
 void check(const Options& o) {
-  if (!(o.dt > 0.0f) || !(o.dt <= 1.0f)) throw InputError("--dt must be a time in seconds, above 0 and at most 1");
+  if (!(o.dt > 0.0f) || !(o.dt <= 1.0f))
+    throw InputError("--dt must be a time in seconds, above 0 and at most 1");
   if (o.solver != "auto" && o.solver != kSolver)
     throw InputError("unknown solver \"" + o.solver + "\"; known: auto, " + kSolver);
   if (o.iterations)
-    throw InputError(std::string("--iterations: solver ") + kSolver + " does not iterate; raise --substeps instead");
+    throw InputError(std::string("--iterations: solver ") + kSolver +
+                     " does not iterate; raise --substeps instead");
 }
 
 int measure(const Options& options) {
@@ -154,7 +161,8 @@ int measure(const Options& options) {
       printText(results.back());
     }
   }
-  // One scene is an object, as is the first of a sample; the other scenes of the sample follow under "scenes".
+  // One scene is an object, as is the first of a sample; the other scenes of the sample follow under
+  // "scenes".
   if (options.json) {
     ordered_json json = results.front();
     if (results.size() > 1) json["scenes"] = results;
@@ -169,10 +177,13 @@ void addMeasureCommand(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("measure", "Run a scene without drawing it and print its figures");
   const auto options = std::make_shared<Options>();
   command->add_option("TARGET", options->target, "SAMPLE[/SCENE]")->required();
-  command->add_option("--steps", options->steps, "Steps to run")->check(CLI::Range(0, 10000000))->capture_default_str();
+  command->add_option("--steps", options->steps, "Steps to run")
+      ->check(CLI::Range(0, 10000000))
+      ->capture_default_str();
   command->add_option("--dt", options->dt, "Length of a step, s (1/60)");
   command->add_option("--substeps", options->substeps, "Solver sub-steps a step")->check(CLI::Range(1, 1000));
-  command->add_option("--iterations", options->iterations, "Iterations of solvers that iterate")->check(CLI::Range(1, 10000));
+  command->add_option("--iterations", options->iterations, "Iterations of solvers that iterate")
+      ->check(CLI::Range(1, 10000));
   command->add_option("--solver", options->solver, "auto or soft_step")->capture_default_str();
   command->add_option("--threads", options->threads, "Threads; the result is the same for any number")
       ->check(CLI::Range(1, 64))

@@ -35,7 +35,8 @@ int failUsage(const CLI::App& app, int argc, const char* const* argv, const CLI:
 }  // namespace
 
 int runProgram(int argc, const char* const* argv) {
-  CLI::App app("Vitrine: rigid-body physics you can see into. Without a command: the interactive browser.", "vitrine");
+  CLI::App app("Vitrine: rigid-body physics you can see into. Without a command: the interactive browser.",
+               "vitrine");
   app.require_subcommand(0, 1);
   app.footer("Exit status: 0 success, 1 a comparison or check failed, 2 bad usage or bad input.");
   Action action;

@@ -5,6 +5,7 @@
 #include "viewer/file.h"
 #include "viewer/golden/golden_record.h"
 #include "viewer/input_error.h"
+#include "viewer/run/progress.h"
 #include "viewer/run/recording.h"
 #include "viewer/run/scene_run.h"
 
@@ -24,14 +25,16 @@ int record(const Options& options) {
   SceneRun run(scene, options.run);
   RecordingWriter writer({run.spec().target(), options.run.dt, uint32_t(run.world().def().substeps)});
   writer.add(run.world());
+  Progress progress("record " + run.spec().target(), uint64_t(options.steps));
   for (int i = 0; i < options.steps; ++i) {
+    progress.at(uint64_t(i));
     run.step();
     writer.add(run.world());
   }
   const std::vector<uint8_t> bytes = writer.bytes();
   writeFile(options.out, bytes);
-  std::printf("%s: %zu frames, %zu bytes, last state %s\n", options.out.c_str(), writer.numFrames(), bytes.size(),
-              hexText(run.world().stateHash()).c_str());
+  std::printf("%s: %zu frames, %zu bytes, last state %s\n", options.out.c_str(), writer.numFrames(),
+              bytes.size(), hexText(run.world().stateHash()).c_str());
   return 0;
 }
 
@@ -43,7 +46,8 @@ void addRecordCommand(CLI::App& app, Action& action) {
   command->add_option("TARGET", options->target, "SAMPLE/SCENE")->required();
   command->add_option("--steps", options->steps, "Steps to run")->check(CLI::Range(0, 1000000))->required();
   command->add_option("--out", options->out, "File to write")->required();
-  command->add_option("--substeps", options->run.substeps, "Solver sub-steps a step")->check(CLI::Range(1, 1000));
+  command->add_option("--substeps", options->run.substeps, "Solver sub-steps a step")
+      ->check(CLI::Range(1, 1000));
   command->add_option("--threads", options->run.threads, "Threads")->check(CLI::Range(1, 64));
   command->callback([&action, options] { action = [options] { return record(*options); }; });
 }

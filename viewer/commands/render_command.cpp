@@ -48,10 +48,12 @@ void addRenderCommand(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand("render", "Write images SAMPLE/SCENE_FRAME.png of scenes");
   const auto options = std::make_shared<Options>();
   command->add_option("TARGET", options->target, "SAMPLE[/SCENE]")->required();
-  command->add_option("--frames", options->frames, "Steps before each picture, for example 0,60,120; default: the scene's");
+  command->add_option("--frames", options->frames,
+                      "Steps before each picture, for example 0,60,120; default: the scene's");
   command->add_option("--size", options->size, "Size in px")->capture_default_str();
   command->add_option("--overlay", options->overlays, "What to draw on top, a list of: " + overlayNames());
-  command->add_option("--camera", options->camera, "For example yaw=30,pitch=20,distance=12,target=0/1/0 (degrees, m)");
+  command->add_option("--camera", options->camera,
+                      "For example yaw=30,pitch=20,distance=12,target=0/1/0 (degrees, m)");
   command->add_option("--backend", options->backend, "auto, osmesa, egl or glfw")->capture_default_str();
   command->add_option("--quality", options->quality, "ci or hero")
       ->check(CLI::IsMember({"ci", "hero"}))

@@ -7,6 +7,7 @@
 #include "viewer/image/png.h"
 #include "viewer/input_error.h"
 #include "viewer/run/capture.h"
+#include "viewer/run/progress.h"
 #include "viewer/run/recording.h"
 #include "viewer/run/scene_run.h"
 
@@ -26,15 +27,19 @@ SceneRun startRun(const Recording& recording) {
 // Runs the scene again beside the recording; the first frame whose state differs ends it.
 int check(const Recording& recording) {
   SceneRun run = startRun(recording);
+  Progress progress("replay " + recording.head().target, recording.numFrames());
   for (size_t i = 0; i < recording.numFrames(); ++i) {
+    progress.at(i);
     const RecordedFrame frame = recording.frame(i);
     run.stepTo(frame.step);
     if (run.world().stateHash() == frame.state_hash) continue;
-    std::printf("%s: diverges first in frame %zu: recorded state %s, now %s\n", recording.head().target.c_str(), i,
-                hexText(frame.state_hash).c_str(), hexText(run.world().stateHash()).c_str());
+    std::printf("%s: diverges first in frame %zu: recorded state %s, now %s\n",
+                recording.head().target.c_str(), i, hexText(frame.state_hash).c_str(),
+                hexText(run.world().stateHash()).c_str());
     return 1;
   }
-  std::printf("%s: all %zu frames are reproduced bit for bit\n", recording.head().target.c_str(), recording.numFrames());
+  std::printf("%s: all %zu frames are reproduced bit for bit\n", recording.head().target.c_str(),
+              recording.numFrames());
   return 0;
 }
 
@@ -68,7 +73,8 @@ int replay(const Options& options) {
 
 void addReplayCommand(CLI::App& app, Action& action) {
   CLI::App* command = app.add_subcommand(
-      "replay", "Check that a recording is reproduced bit for bit, or draw one of its frames (--frame, --out)");
+      "replay",
+      "Check that a recording is reproduced bit for bit, or draw one of its frames (--frame, --out)");
   const auto options = std::make_shared<Options>();
   command->add_option("FILE", options->file, "Recording")->required();
   command->add_option("--frame", options->frame, "Frame to draw, from 0");

@@ -15,7 +15,6 @@ using pfx::Vec3;
 struct Triangle {
   std::array<uint32_t, 3> corner;  // welded points
   Vec3 normal;                     // unit
-  float area;                      // doubled
   std::array<bool, 3> feature{};   // edge k lies opposite corner k
 };
 
@@ -41,13 +40,13 @@ std::vector<Triangle> collectTriangles(std::span<const Vec3> points, std::span<c
     const Vec3 n = (points[c[1]] - points[c[0]]).cross(points[c[2]] - points[c[0]]);
     const float length = n.norm();
     if (!(length > 0.0f) || !std::isfinite(length)) continue;
-    triangles.push_back({c, n / length, length, {}});
+    triangles.push_back({c, n / length, {}});
   }
   return triangles;
 }
 
 // Marks edges that are open or whose faces differ by more than the feature angle.
-void markFeatureEdges(std::vector<Triangle>& triangles, float cos_limit) {
+void markFeatureEdges(std::vector<Triangle>& triangles) {
   struct Side {
     uint64_t edge;
     uint32_t triangle, opposite;
@@ -63,17 +62,28 @@ void markFeatureEdges(std::vector<Triangle>& triangles, float cos_limit) {
     size_t end = i + 1;
     while (end < sides.size() && sides[end].edge == sides[i].edge) ++end;
     const bool smooth = end - i == 2 && triangles[sides[i].triangle].normal.dot(
-                                            triangles[sides[i + 1].triangle].normal) > cos_limit;
+                                            triangles[sides[i + 1].triangle].normal) > kCosFeatureAngle;
     for (; i < end; ++i) triangles[sides[i].triangle].feature[sides[i].opposite] = !smooth;
   }
 }
 
-// Area-weighted mean of the normals round a point, of those triangles that are smooth with this one.
-Vec3 cornerNormal(const Triangle& of, std::span<const uint32_t> around, std::span<const Triangle> triangles,
-                  float cos_limit) {
+// Angle of a triangle at one of its corners, rad.
+float angleAt(const Triangle& t, uint32_t corner, std::span<const Vec3> points) {
+  const auto k = size_t(std::find(t.corner.begin(), t.corner.end(), corner) - t.corner.begin());
+  const Vec3 a = points[t.corner[(k + 1) % 3]] - points[corner],
+             b = points[t.corner[(k + 2) % 3]] - points[corner];
+  return float(std::atan2(double(a.cross(b).norm()), double(a.dot(b))));
+}
+
+// Mean of the normals round a point, of those triangles that are smooth with this one, weighted by their
+// angles: then it does not matter how faces were cut into triangles. G. Thuermer, C. A. Wuethrich, Computing
+// Vertex Normals from Polygonal Facets, Journal of Graphics Tools 3(1), 1998.
+Vec3 cornerNormal(const Triangle& of, uint32_t corner, std::span<const uint32_t> around,
+                  std::span<const Triangle> triangles, std::span<const Vec3> points) {
   Vec3 sum = Vec3::Zero();
   for (const uint32_t t : around)
-    if (triangles[t].normal.dot(of.normal) > cos_limit) sum += triangles[t].area * triangles[t].normal;
+    if (triangles[t].normal.dot(of.normal) > kCosFeatureAngle)
+      sum += angleAt(triangles[t], corner, points) * triangles[t].normal;
   const float length = sum.norm();
   return length > 0.0f ? Vec3(sum / length) : of.normal;
 }
@@ -81,9 +91,8 @@ Vec3 cornerNormal(const Triangle& of, std::span<const uint32_t> around, std::spa
 }  // namespace
 
 MeshData makeMesh(std::span<const Vec3> points, std::span<const uint32_t> indices) {
-  const float cos_limit = float(std::cos(kFeatureAngleDeg * std::numbers::pi / 180.0));
   std::vector<Triangle> triangles = collectTriangles(points, indices);
-  markFeatureEdges(triangles, cos_limit);
+  markFeatureEdges(triangles);
 
   std::vector<std::vector<uint32_t>> around(points.size());
   for (uint32_t t = 0; t < triangles.size(); ++t)
@@ -98,8 +107,9 @@ MeshData makeMesh(std::span<const Vec3> points, std::span<const uint32_t> indice
       for (int e = 0; e < 3; ++e)
         if (!t.feature[e]) edge[e] += kPlainEdge;
       mesh.vertices.push_back(
-          {points[t.corner[k]], cornerNormal(t, around[t.corner[k]], triangles, cos_limit), edge});
+          {points[t.corner[k]], cornerNormal(t, t.corner[k], around[t.corner[k]], triangles, points), edge});
     }
+  for (const MeshVertex& v : mesh.vertices) mesh.bounds.extend(v.position);
   return mesh;
 }
 

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "pfx/base_level/math/vector.h"
+#include "pfx/base_level/shape/aabb.h"
 
 namespace viewer {
 
@@ -25,10 +26,11 @@ inline constexpr float kPlainEdge = 2.0f;
 
 struct MeshData {
   std::vector<MeshVertex> vertices;  // (3 x triangles)
+  pfx::Aabb bounds;                  // m, of the vertices
 };
 
-// Edges whose faces meet at more than this angle are feature edges, and normals are smooth across the others.
-inline constexpr float kFeatureAngleDeg = 30.0f;
+// Edges whose faces meet at more than 30 degrees are feature edges, and normals are smooth across the others.
+inline constexpr float kCosFeatureAngle = 0.8660254f;
 
 // Builds flat-or-smooth triangles with feature edges from an indexed mesh (indices: 3 per triangle,
 // counter-clockwise seen from outside). Indices out of range and triangles without area are left out.

@@ -12,7 +12,8 @@ namespace fs = std::filesystem;
 namespace {
 
 constexpr std::string_view kLogHead =
-    "# Approvals\n\nEach line: when golden images were accepted, why, and which. Written by `vitrine verify --approve`.\n\n";
+    "# Approvals\n\nEach line: when golden images were accepted, why, and which. Written by `vitrine verify "
+    "--approve`.\n\n";
 
 std::string today() {
   const std::time_t now = std::time(nullptr);
@@ -39,7 +40,8 @@ void log(const fs::path& file, const std::string& reason, const Approval& approv
 
 }  // namespace
 
-Approval approve(std::span<const FrameResult> results, const fs::path& golden_dir, const std::string& reason) {
+Approval approve(std::span<const FrameResult> results, const fs::path& golden_dir,
+                 const std::string& reason) {
   const auto visible = [](char c) { return c != ' ' && c != '\t' && c != '\n' && c != '\r'; };
   if (std::none_of(reason.begin(), reason.end(), visible)) throw InputError("--approve needs --reason TEXT");
   std::string one_line = reason;
@@ -62,7 +64,8 @@ Approval approve(std::span<const FrameResult> results, const fs::path& golden_di
     writeRecord(record, accepted);
     approval.written.push_back(r.name());
   }
-  if (!approval.written.empty() || !approval.removed.empty()) log(golden_dir / "APPROVALS.md", one_line, approval);
+  if (!approval.written.empty() || !approval.removed.empty())
+    log(golden_dir / "APPROVALS.md", one_line, approval);
   return approval;
 }
 

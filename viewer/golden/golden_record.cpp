@@ -101,7 +101,8 @@ void writeRecord(const std::filesystem::path& file, const GoldenRecord& r) {
 }
 
 bool sameCamera(const samples::CameraPose& a, const samples::CameraPose& b) {
-  return a.target == b.target && a.distance == b.distance && a.yaw_deg == b.yaw_deg && a.pitch_deg == b.pitch_deg;
+  return a.target == b.target && a.distance == b.distance && a.yaw_deg == b.yaw_deg &&
+         a.pitch_deg == b.pitch_deg;
 }
 
 std::string hexText(uint64_t value) {

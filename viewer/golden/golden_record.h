@@ -1,4 +1,5 @@
-// The facts beside a golden image: what it shows, of which state, drawn by what. SCENE_FRAME.json beside SCENE_FRAME.png.
+// The facts beside a golden image: what it shows, of which state, drawn by what. SCENE_FRAME.json beside
+// SCENE_FRAME.png.
 #pragma once
 
 #include <cstdint>
@@ -18,14 +19,14 @@ struct Tolerance {
 };
 
 struct GoldenRecord {
-  std::string target;           // "2_stable/tower"
-  int frame = 0;                // steps before the picture was taken
-  int substeps = 0;             // of each step
-  int width = 0, height = 0;    // px
-  uint64_t state_hash = 0;      // of the world
-  uint64_t image_hash = 0;      // of the pixels
+  std::string target;         // "2_stable/tower"
+  int frame = 0;              // steps before the picture was taken
+  int substeps = 0;           // of each step
+  int width = 0, height = 0;  // px
+  uint64_t state_hash = 0;    // of the world
+  uint64_t image_hash = 0;    // of the pixels
   samples::CameraPose camera;
-  std::string renderer;         // fingerprint of the rasteriser
+  std::string renderer;  // fingerprint of the rasteriser
   std::optional<Tolerance> tolerance;
 };
 

@@ -9,7 +9,8 @@
 namespace viewer {
 
 std::string junitXml(std::span<const FrameResult> results, double seconds) {
-  const auto failures = std::count_if(results.begin(), results.end(), [](const FrameResult& r) { return !r.pass; });
+  const auto failures =
+      std::count_if(results.begin(), results.end(), [](const FrameResult& r) { return !r.pass; });
   char time[32];
   std::snprintf(time, sizeof time, "%.3f", seconds);
   pugi::xml_document document;

@@ -23,7 +23,8 @@ double badness(const FrameResult& r) {
 }
 
 // Saves one picture and returns its address relative to the page; empty when there is none.
-std::string savePicture(const fs::path& folder, const FrameResult& r, const char* kind, std::span<const uint8_t> png) {
+std::string savePicture(const fs::path& folder, const FrameResult& r, const char* kind,
+                        std::span<const uint8_t> png) {
   if (png.empty()) return "";
   const fs::path name = framePath("images", r.target, r.frame, std::string(".") + kind + ".png");
   writeFile(folder / name, png);
@@ -58,7 +59,8 @@ ordered_json describe(const fs::path& folder, const FrameResult& r) {
 
 // JSON that may stand inside a <script> element.
 std::string scriptSafe(std::string json) {
-  for (size_t at = json.find("</"); at != std::string::npos; at = json.find("</", at)) json.replace(at, 2, "<\\/");
+  for (size_t at = json.find("</"); at != std::string::npos; at = json.find("</", at))
+    json.replace(at, 2, "<\\/");
   return json;
 }
 
@@ -77,7 +79,8 @@ fs::path writeReport(const fs::path& folder, std::span<const FrameResult> result
   fs::remove_all(folder / "images", error);
   ordered_json frames = ordered_json::array();
   for (size_t i : worstFirst(results)) frames.push_back(describe(folder, results[i]));
-  const ordered_json data = {{"renderer", head.renderer}, {"seconds", head.seconds}, {"frames", std::move(frames)}};
+  const ordered_json data = {
+      {"renderer", head.renderer}, {"seconds", head.seconds}, {"frames", std::move(frames)}};
 
   std::string page(kReportPage);
   const std::string_view mark = "@DATA@";

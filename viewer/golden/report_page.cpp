@@ -1,5 +1,5 @@
-// One page without anything from outside. ?frame=NAME&mode=slider|side|difference|heat opens one frame; every picture
-// that was loaded gets its size as data-loaded, so that a test in a browser can see that it is there.
+// One page without anything from outside. ?frame=NAME&mode=slider|side|difference|heat opens one frame; every
+// picture that was loaded gets its size as data-loaded, so that a test in a browser can see that it is there.
 #include "viewer/golden/report_page.h"
 
 namespace viewer {

@@ -156,7 +156,8 @@ std::vector<FrameResult> findStale(std::span<const SceneSpec> scenes, const fs::
     const size_t bar = text.rfind('_');
     const std::string number = bar == text.npos ? "" : text.substr(bar + 1);
     // Only names of the form SCENE_FRAME are golden images; other pictures may live in the folder.
-    if (number.empty() || number.size() > 9 || number.find_first_not_of("0123456789") != number.npos) continue;
+    if (number.empty() || number.size() > 9 || number.find_first_not_of("0123456789") != number.npos)
+      continue;
     r.target = text.substr(0, bar), r.frame = std::stoi(number);
     r.triage = Triage::StaleGolden, r.why = "no scene draws this golden image; --approve removes it";
     out.push_back(std::move(r));
@@ -168,15 +169,24 @@ std::vector<FrameResult> findStale(std::span<const SceneSpec> scenes, const fs::
 
 std::string_view toText(Triage triage) {
   switch (triage) {
-    case Triage::None: return "unchanged";
-    case Triage::PhysicsChange: return "physics change";
-    case Triage::RendererChange: return "renderer change";
-    case Triage::HiddenPhysics: return "physics change that the picture does not show";
-    case Triage::CameraChange: return "camera change";
-    case Triage::NewFrame: return "new frame";
-    case Triage::DamagedGolden: return "damaged golden image";
-    case Triage::StaleGolden: return "stale golden image";
-    case Triage::SceneError: return "scene failed";
+    case Triage::None:
+      return "unchanged";
+    case Triage::PhysicsChange:
+      return "physics change";
+    case Triage::RendererChange:
+      return "renderer change";
+    case Triage::HiddenPhysics:
+      return "physics change that the picture does not show";
+    case Triage::CameraChange:
+      return "camera change";
+    case Triage::NewFrame:
+      return "new frame";
+    case Triage::DamagedGolden:
+      return "damaged golden image";
+    case Triage::StaleGolden:
+      return "stale golden image";
+    case Triage::SceneError:
+      return "scene failed";
   }
   return "";
 }

@@ -1,7 +1,7 @@
 // Draws scenes and judges every frame against its golden image and its golden state.
 //
-// Two questions are asked of every frame and answered apart: is the state of the world the same, bit for bit, and does
-// the picture look the same? Together they tell what changed (see Triage).
+// Two questions are asked of every frame and answered apart: is the state of the world the same, bit for bit,
+// and does the picture look the same? Together they tell what changed (see Triage).
 #pragma once
 
 #include <filesystem>
@@ -34,20 +34,21 @@ struct FrameResult {
   int frame = 0;
   bool pass = false;
   Triage triage = Triage::None;
-  std::string why;     // one line
-  Verdict verdict;     // of the picture, when there were two to compare
+  std::string why;  // one line
+  Verdict verdict;  // of the picture, when there were two to compare
   bool same_rasteriser = true;
   GoldenRecord golden, actual;  // golden: as far as it could be read
-  std::vector<uint8_t> expected_png, actual_png, difference_png, heat_png;  // files; the last two unless exact
+  std::vector<uint8_t> expected_png, actual_png, difference_png,
+      heat_png;  // files; the last two unless exact
 
   std::string name() const { return target + "_" + std::to_string(frame); }
 };
 
 struct VerifySettings {
   std::filesystem::path golden_dir;
-  bool strict_renderer = false;   // another rasteriser than the golden's is a failure
-  int workers = 1;                // threads that draw, each with a source of its own
-  bool find_stale = false;        // `scenes` are all there are: a golden image of another scene is stale
+  bool strict_renderer = false;  // another rasteriser than the golden's is a failure
+  int workers = 1;               // threads that draw, each with a source of its own
+  bool find_stale = false;       // `scenes` are all there are: a golden image of another scene is stale
 };
 
 // Called as frames are done, from one thread at a time.

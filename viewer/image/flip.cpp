@@ -1,5 +1,5 @@
-// LDR-FLIP. A picture goes to a linearised Lab space, is blurred as the eye blurs, and is compared by colour; edges
-// and points are compared on its lightness; both are joined at the end.
+// LDR-FLIP. A picture goes to a linearised Lab space, is blurred as the eye blurs, and is compared by colour;
+// edges and points are compared on its lightness; both are joined at the end.
 #include "viewer/image/flip.h"
 
 #include <algorithm>
@@ -93,8 +93,10 @@ Plane convolve(const Plane& in, int width, int height, const Plane& along_x, con
   Plane rows(in.size(), 0.0f), out(in.size(), 0.0f), padded(size_t(width + 2 * radius_x));
   for (int y = 0; y < height; ++y) {
     const float* row = &in[size_t(y) * size_t(width)];
-    for (int i = 0; i < int(padded.size()); ++i) padded[size_t(i)] = row[std::clamp(i - radius_x, 0, width - 1)];
-    for (size_t k = 0; k < along_x.size(); ++k) addRow(&rows[size_t(y) * size_t(width)], &padded[k], along_x[k], width);
+    for (int i = 0; i < int(padded.size()); ++i)
+      padded[size_t(i)] = row[std::clamp(i - radius_x, 0, width - 1)];
+    for (size_t k = 0; k < along_x.size(); ++k)
+      addRow(&rows[size_t(y) * size_t(width)], &padded[k], along_x[k], width);
   }
   for (int y = 0; y < height; ++y)
     for (int k = 0; k < int(along_y.size()); ++k) {
@@ -146,7 +148,8 @@ std::vector<Color3> toPerceivedLab(const Planes& o) {
   return lab;
 }
 
-// Section 4.2: strength of edges and of points, from first and second derivatives of a Gaussian as wide as the eye's.
+// Section 4.2: strength of edges and of points, from first and second derivatives of a Gaussian as wide as
+// the eye's.
 struct Features {
   Plane edge, point;
 };

@@ -8,8 +8,8 @@
 namespace viewer {
 
 struct Image {
-  int width = 0, height = 0;   // px
-  std::vector<uint8_t> rgba;   // (height x width x 4), sRGB
+  int width = 0, height = 0;  // px
+  std::vector<uint8_t> rgba;  // (height x width x 4), sRGB
 
   bool empty() const { return rgba.empty(); }
   size_t numPixels() const { return size_t(width) * size_t(height); }

@@ -69,7 +69,8 @@ Image heatImage(int width, int height, const std::vector<float>& values) {
     const size_t stop = std::min(size_t(at), kStops.size() - 2);
     const float part = at - float(stop);
     for (size_t c = 0; c < 3; ++c)
-      out.rgba[i * 4 + c] = uint8_t(std::lround(kStops[stop][c] + part * (kStops[stop + 1][c] - kStops[stop][c])));
+      out.rgba[i * 4 + c] =
+          uint8_t(std::lround(kStops[stop][c] + part * (kStops[stop + 1][c] - kStops[stop][c])));
   }
   return out;
 }

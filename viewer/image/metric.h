@@ -1,20 +1,20 @@
 // How far apart two pictures are, in numbers that separate noise from defects.
 //
-// Means over the image hide a missing box; the largest 8x8 block shows it. The distance of two pixels is the largest
-// difference of their four channels.
+// Means over the image hide a missing box; the largest 8x8 block shows it. The distance of two pixels is the
+// largest difference of their four channels.
 #pragma once
 
 #include "viewer/image/image.h"
 
 namespace viewer {
 
-inline constexpr int kBlock = 8;           // px, side of a block
-inline constexpr int kVisibleLevels = 3;   // differences above this many levels are counted
+inline constexpr int kBlock = 8;          // px, side of a block
+inline constexpr int kVisibleLevels = 3;  // differences above this many levels are counted
 
 struct ImageDifference {
-  int max_channel = 0;         // levels of 255, over all pixels and channels
-  uint32_t pixels_over = 0;    // pixels further apart than kVisibleLevels
-  float max_block = 0.0f;      // levels, largest mean distance of an 8x8 block
+  int max_channel = 0;           // levels of 255, over all pixels and channels
+  uint32_t pixels_over = 0;      // pixels further apart than kVisibleLevels
+  float max_block = 0.0f;        // levels, largest mean distance of an 8x8 block
   int worst_x = 0, worst_y = 0;  // px, top left corner of that block
 
   bool equal() const { return max_channel == 0; }

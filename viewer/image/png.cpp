@@ -1,5 +1,5 @@
-// PNG through libpng's simplified interface; what it does not test (checksums of skipped chunks, a cut tail) is tested
-// here first.
+// PNG through libpng's simplified interface; what it does not test (checksums of skipped chunks, a cut tail)
+// is tested here first.
 #include "viewer/image/png.h"
 
 #include <png.h>
@@ -62,10 +62,11 @@ struct PngImage {
 Image decodePng(std::span<const uint8_t> bytes, std::string_view name) {
   checkChunks(bytes, name);
   PngImage png;
-  if (!png_image_begin_read_from_memory(&png.image, bytes.data(), bytes.size())) fail(name, png.image.message);
+  if (!png_image_begin_read_from_memory(&png.image, bytes.data(), bytes.size()))
+    fail(name, png.image.message);
   if (png.image.width > unsigned(kMaxImageSide) || png.image.height > unsigned(kMaxImageSide))
-    fail(name, std::to_string(png.image.width) + "x" + std::to_string(png.image.height) + " px is more than " +
-                   std::to_string(kMaxImageSide) + " a side");
+    fail(name, std::to_string(png.image.width) + "x" + std::to_string(png.image.height) +
+                   " px is more than " + std::to_string(kMaxImageSide) + " a side");
   png.image.format = PNG_FORMAT_RGBA;
   Image out{int(png.image.width), int(png.image.height), {}};
   out.rgba.resize(PNG_IMAGE_SIZE(png.image));
@@ -87,7 +88,8 @@ std::vector<uint8_t> encodePng(const Image& image) {
   png.image.width = unsigned(image.width);
   png.image.height = unsigned(image.height);
   png.image.format = opaque ? PNG_FORMAT_RGB : PNG_FORMAT_RGBA;
-  // Filter NONE and a low level: on flat rendered pictures that is both four times faster and smaller than the default.
+  // Filter NONE and a low level: on flat rendered pictures that is both four times faster and smaller than
+  // the default.
   png.image.flags = PNG_IMAGE_FLAG_FAST;
   const uint8_t* pixels = opaque ? rgb.data() : image.rgba.data();
   png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png.image);

@@ -7,7 +7,9 @@
 namespace viewer {
 namespace {
 
-std::string sizeText(const Image& image) { return std::to_string(image.width) + "x" + std::to_string(image.height); }
+std::string sizeText(const Image& image) {
+  return std::to_string(image.width) + "x" + std::to_string(image.height);
+}
 
 std::string number(double value) {
   char text[32];

@@ -9,7 +9,8 @@ namespace viewer {
 namespace {
 
 ImU32 stageColor(size_t index) {
-  return ImGui::ColorConvertFloat4ToU32(ImVec4(ImColor::HSV(float(index) * 0.618034f - float(int(float(index) * 0.618034f)), 0.5f, 0.85f)));
+  return ImGui::ColorConvertFloat4ToU32(
+      ImVec4(ImColor::HSV(float(index) * 0.618034f - float(int(float(index) * 0.618034f)), 0.5f, 0.85f)));
 }
 
 // Bars of the steps, newest at the right, the stages on top of one another.
@@ -18,7 +19,11 @@ void stackedPlot(const std::vector<StageCost>& costs, const std::vector<float>& 
   ImGui::Dummy(size);
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   draw.AddRectFilled(at, ImVec2(at.x + size.x, at.y + size.y), ImGui::GetColorU32(ImGuiCol_FrameBg), 4.0f);
-  const float most = totals.empty() ? 1.0f : std::max(*std::max_element(totals.begin(), totals.end()), 1e-4f);
+  // Scaled to what nearly all steps need: a single one that the system interrupted would flatten all others.
+  std::vector<float> sorted = totals;
+  std::sort(sorted.begin(), sorted.end());
+  const float most = std::max(1.2f * sorted[sorted.size() * 95 / 100], 1e-4f);
+  draw.PushClipRect(at, ImVec2(at.x + size.x, at.y + size.y), true);
   const float bar = size.x / float(Session::kRecent);
   for (size_t step = 0; step < totals.size(); ++step) {
     const float x = at.x + size.x - bar * float(totals.size() - step);
@@ -32,6 +37,7 @@ void stackedPlot(const std::vector<StageCost>& costs, const std::vector<float>& 
       y -= height;
     }
   }
+  draw.PopClipRect();
   char text[32];
   std::snprintf(text, sizeof text, "%.2f ms", double(most));
   draw.AddText(ImVec2(at.x + 5.0f, at.y + 3.0f), ImGui::GetColorU32(ImGuiCol_Text), text);
@@ -45,10 +51,12 @@ void costsPanel(const PanelArea& area, const Session& session) {
     ImGui::TextDisabled("no step was made yet");
     return;
   }
-  const float table_width = std::min(360.0f, 0.5f * area.width);
+  const float table_width = std::min(26.0f * ImGui::GetFontSize(), 0.5f * area.width);
   ImGui::BeginChild("table", ImVec2(table_width, 0.0f));
   if (ImGui::BeginTable("costs", 4, ImGuiTableFlags_RowBg)) {
-    for (const char* column : {"stage", "now ms", "mean", "most"}) ImGui::TableSetupColumn(column);
+    ImGui::TableSetupColumn("stage", ImGuiTableColumnFlags_WidthStretch);
+    for (const char* column : {"now ms", "mean", "most"})
+      ImGui::TableSetupColumn(column, ImGuiTableColumnFlags_WidthFixed, 4.2f * ImGui::GetFontSize());
     ImGui::TableHeadersRow();
     const auto line = [](const char* stage, const std::vector<float>& v, ImU32 color) {
       ImGui::TableNextRow();

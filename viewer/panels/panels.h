@@ -1,5 +1,5 @@
-// The browser's panels: free functions that draw a model and return what the user asked for. They know ImGui and the
-// engine, but neither the window nor the renderer.
+// The browser's panels: free functions that draw a model and return what the user asked for. They know ImGui
+// and the engine, but neither the window nor the renderer.
 #pragma once
 
 #include <optional>
@@ -19,12 +19,12 @@ struct PanelArea {
   float x, y, width, height;
 };
 
-// Whether `filter` is a part of `text`, or its letters follow one another in it; capitals do not count. An empty filter
-// matches everything.
+// Whether `filter` is a part of `text`, or its letters follow one another in it; capitals do not count. An
+// empty filter matches everything.
 bool matchesFilter(std::string_view text, std::string_view filter);
 
-// Samples and scenes with a search field. Returns the target of a scene that was chosen: by a click, or as the first that
-// matches by Enter in the search field.
+// Samples and scenes with a search field. Returns the target of a scene that was chosen: by a click, or as
+// the first that matches by Enter in the search field.
 struct SceneListState {
   char filter[64] = "";
   bool focus_filter = false;  // put the cursor into the search field in the next frame
@@ -40,8 +40,8 @@ struct TransportEdit {
 };
 TransportEdit transportPanel(const PanelArea& area, const Session& session);
 
-// Counters, overlays, solver settings, and what is known of the selection. Returns whether the scene has to be restarted
-// for a setting to act, and what was selected.
+// Counters, overlays, solver settings, and what is known of the selection. Returns whether the scene has to
+// be restarted for a setting to act, and what was selected.
 struct SideEdit {
   bool restart = false;
   std::optional<uint32_t> selected;  // pick id

@@ -28,8 +28,9 @@ std::optional<std::string> sceneListPanel(const PanelArea& area, std::span<const
   if (state.focus_filter) ImGui::SetKeyboardFocusHere();
   state.focus_filter = false;
   ImGui::SetNextItemWidth(-1.0f);
-  const bool entered = ImGui::InputTextWithHint("##filter", "search (Ctrl+O)", state.filter, sizeof state.filter,
-                                                ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
+  const bool entered =
+      ImGui::InputTextWithHint("##filter", "search (Ctrl+O)", state.filter, sizeof state.filter,
+                               ImGuiInputTextFlags_EnterReturnsTrue | ImGuiInputTextFlags_AutoSelectAll);
   const auto shown = [&](const SceneSpec& s) {
     return matchesFilter(s.target(), state.filter) || matchesFilter(s.shows, state.filter);
   };

@@ -31,15 +31,15 @@ bool section(const char* title, bool open = true) {
 }
 
 const char* motionName(pfx::MotionType type) {
-  static constexpr std::array<const char*, pfx::kNumMotionTypes> kNames = {"fixed", "active", "keyframe", "one way",
-                                                                           "trigger"};
+  static constexpr std::array<const char*, pfx::kNumMotionTypes> kNames = {"fixed", "active", "keyframe",
+                                                                           "one way", "trigger"};
   const auto i = size_t(type);
   return i < kNames.size() ? kNames[i] : "unknown";
 }
 
 const char* shapeName(const pfx::Shape& shape) {
-  static constexpr std::array<const char*, pfx::kNumShapeTypes> kNames = {"sphere",   "box",         "capsule",
-                                                                          "cylinder", "convex mesh", "large mesh"};
+  static constexpr std::array<const char*, pfx::kNumShapeTypes> kNames = {
+      "sphere", "box", "capsule", "cylinder", "convex mesh", "large mesh"};
   return kNames[size_t(shape.type())];
 }
 
@@ -61,7 +61,8 @@ void countersSection(const Session& session) {
   row("fastest body", "%.3f m/s", f.max_speed);
   ImGui::EndTable();
   const auto plot = [](const char* id, const std::vector<float>& values, const char* label) {
-    ImGui::PlotLines(id, values.data(), int(values.size()), 0, label, FLT_MAX, FLT_MAX, ImVec2(-1.0f, 34.0f));
+    const ImVec2 size(ImGui::GetContentRegionAvail().x, 2.6f * ImGui::GetFontSize());
+    ImGui::PlotLines(id, values.data(), int(values.size()), 0, label, FLT_MAX, FLT_MAX, size);
   };
   plot("##energy", session.energies(), "energy");
   plot("##penetration", session.penetrations(), "overlap");

@@ -29,7 +29,8 @@ TransportEdit transportPanel(const PanelArea& area, const Session& session) {
   ImGui::SameLine();
   float speed = session.speed;
   ImGui::SetNextItemWidth(-1.0f);
-  if (ImGui::SliderFloat("##speed", &speed, 0.05f, 4.0f, "speed %.2f", ImGuiSliderFlags_Logarithmic)) edit.speed = speed;
+  if (ImGui::SliderFloat("##speed", &speed, 0.05f, 4.0f, "speed %.2f", ImGuiSliderFlags_Logarithmic))
+    edit.speed = speed;
   return edit;
 }
 

@@ -12,12 +12,6 @@ namespace {
 
 using pfx::Vec3;
 
-pfx::Aabb meshBounds(const MeshData& mesh) {
-  pfx::Aabb box;
-  for (const MeshVertex& v : mesh.vertices) box.extend(v.position);
-  return box;
-}
-
 Vec3 halfExtent(uint64_t mesh, const Instance& i, const pfx::Aabb& bounds) {
   if (mesh == kRound) return {i.scale.x() + i.scale.y(), i.scale.y(), i.scale.y()};
   if (mesh == kUnitBox || mesh == kUnitCylinder) return i.scale;
@@ -32,7 +26,7 @@ pfx::Aabb casterBounds(const DrawList& list) {
   for (const auto& [key, batch] : list.batches()) {
     const auto mesh = list.meshes().find(key);
     const pfx::Aabb bounds =
-        mesh == list.meshes().end() ? pfx::Aabb{-Vec3::Ones(), Vec3::Ones()} : meshBounds(mesh->second);
+        mesh == list.meshes().end() ? pfx::Aabb{-Vec3::Ones(), Vec3::Ones()} : mesh->second.bounds;
     for (const Instance& i : batch.instances) {
       if (layerOf(i) == Layer::Floor || layerOf(i) == Layer::Translucent) continue;
       const Vec3 center =

@@ -26,7 +26,7 @@ enum class Quality {
 struct RenderParams {
   Quality quality = Quality::Ci;
   bool wire = false;       // draws the edges of all triangles, not only where faces meet at an angle
-  std::string shader_dir;  // read shaders from here instead of the built-in ones; empty: built in
+  std::string shader_dir = {};  // read shaders from here instead of the built-in ones; empty: built in
 };
 
 struct FrameInput {

@@ -16,10 +16,10 @@ namespace viewer {
 
 struct CaptureSettings {
   Backend backend = Backend::Auto;
-  int width = 640, height = 360;   // px
+  int width = 640, height = 360;  // px
   Overlays overlays = {};
   Quality quality = Quality::Ci;
-  RunSettings run = {};            // of the scenes that render() runs
+  RunSettings run = {};  // of the scenes that render() runs
 };
 
 // Belongs to the thread that made it.

@@ -1,4 +1,5 @@
-// Where pictures of scenes come from. The golden flow sees only this, so that it is tested with synthetic pictures.
+// Where pictures of scenes come from. The golden flow sees only this, so that it is tested with synthetic
+// pictures.
 #pragma once
 
 #include <cstdint>
@@ -13,8 +14,8 @@
 namespace viewer {
 
 struct RenderedFrame {
-  int frame = 0;               // steps made before the picture was taken
-  uint64_t state_hash = 0;     // of the world in that moment
+  int frame = 0;            // steps made before the picture was taken
+  uint64_t state_hash = 0;  // of the world in that moment
   Image image;
 };
 
@@ -25,8 +26,8 @@ class FrameSource {
   // Names the rasteriser; pictures of two sources with the same name are equal up to rounding.
   virtual std::string fingerprint() const = 0;
 
-  // Runs the scene from its start and hands over the picture of each frame number (ascending). Throws what the scene or
-  // the renderer throws.
+  // Runs the scene from its start and hands over the picture of each frame number (ascending). Throws what
+  // the scene or the renderer throws.
   virtual void render(const SceneSpec& scene, std::span<const int> frames,
                       const std::function<void(RenderedFrame&&)>& use) = 0;
 };

@@ -12,12 +12,13 @@ namespace {
 
 struct Entry {
   std::string_view name;
-  bool Overlays::* flag;
+  bool Overlays::*flag;
 };
 
 constexpr std::array kTable = {
-    Entry{"aabb", &Overlays::aabb},         Entry{"axes", &Overlays::axes},     Entry{"contacts", &Overlays::contacts},
-    Entry{"islands", &Overlays::islands},   Entry{"joints", &Overlays::joints}, Entry{"velocity", &Overlays::velocity},
+    Entry{"aabb", &Overlays::aabb},         Entry{"axes", &Overlays::axes},
+    Entry{"contacts", &Overlays::contacts}, Entry{"islands", &Overlays::islands},
+    Entry{"joints", &Overlays::joints},     Entry{"velocity", &Overlays::velocity},
     Entry{"world", &Overlays::world},
 };
 
@@ -32,7 +33,10 @@ std::string overlayNames() {
 std::string overlayList(const Overlays& overlays) {
   std::string names;
   for (const Entry& e : kTable)
-    if (overlays.*e.flag) names += (names.empty() ? "" : ",") + std::string(e.name);
+    if (overlays.*e.flag) {
+      if (!names.empty()) names += ',';
+      names += e.name;
+    }
   return names.empty() ? "none" : names;
 }
 
@@ -44,7 +48,8 @@ Overlays parseOverlays(const std::string& list) {
     bool known = part == "all";
     for (const Entry& e : kTable)
       if (part == "all" || part == e.name) out.*e.flag = true, known = true;
-    if (!known) throw InputError("--overlay \"" + list + "\": \"" + part + "\" is not known; known: " + overlayNames());
+    if (!known)
+      throw InputError("--overlay \"" + list + "\": \"" + part + "\" is not known; known: " + overlayNames());
   }
   return out;
 }

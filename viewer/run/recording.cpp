@@ -17,7 +17,7 @@ static_assert(std::endian::native == std::endian::little, "recordings are little
 
 constexpr char kMagic[8] = {'V', 'T', 'R', 'N', 'R', 'E', 'C', '\n'};
 constexpr uint32_t kVersion = 1;
-constexpr uint32_t kMaxTarget = 4096;   // bytes
+constexpr uint32_t kMaxTarget = 4096;  // bytes
 constexpr size_t kFloatsABody = 13;
 constexpr size_t kBytesABody = kFloatsABody * sizeof(float) + 1;
 constexpr size_t kFrameHead = 2 * sizeof(uint64_t) + sizeof(uint32_t);
@@ -109,8 +109,8 @@ Recording::Recording(std::vector<uint8_t> bytes, const std::string& name) : byte
       throw std::runtime_error("is not a recording");
     const auto version = reader.get<uint32_t>();
     if (version != kVersion)
-      throw std::runtime_error("is a recording of version " + std::to_string(version) + "; this program reads version " +
-                               std::to_string(kVersion));
+      throw std::runtime_error("is a recording of version " + std::to_string(version) +
+                               "; this program reads version " + std::to_string(kVersion));
     head_.dt = reader.get<float>();
     head_.substeps = reader.get<uint32_t>();
     const auto frames = reader.get<uint32_t>();
@@ -123,14 +123,17 @@ Recording::Recording(std::vector<uint8_t> bytes, const std::string& name) : byte
     for (uint64_t& offset : offsets_) offset = reader.get<uint64_t>();
     const size_t end = bytes_.size() - sizeof(uint64_t);
     const uint64_t hash = Reader(std::span<const uint8_t>(bytes_).subspan(end)).get<uint64_t>();
-    if (XXH3_64bits(bytes_.data(), end) != hash) throw std::runtime_error("is cut off or damaged: wrong checksum");
+    if (XXH3_64bits(bytes_.data(), end) != hash)
+      throw std::runtime_error("is cut off or damaged: wrong checksum");
     checkOffsets(offsets_, bytes_.size() - reader.left(), end);
   } catch (const std::runtime_error& error) {
     throw InputError(name + ": " + error.what());
   }
 }
 
-Recording Recording::read(const std::filesystem::path& file) { return Recording(readFile(file), file.string()); }
+Recording Recording::read(const std::filesystem::path& file) {
+  return Recording(readFile(file), file.string());
+}
 
 RecordedFrame Recording::frame(size_t index) const {
   const uint64_t begin = offsets_.at(index), end = offsets_.at(index + 1);
@@ -154,8 +157,8 @@ RecordedFrame Recording::frame(size_t index) const {
 
 void applyFrame(pfx::World& world, const RecordedFrame& frame) {
   if (frame.bodies.size() != world.states().size())
-    throw InputError("the recording has " + std::to_string(frame.bodies.size()) + " bodies in this frame, the scene has " +
-                     std::to_string(world.states().size()));
+    throw InputError("the recording has " + std::to_string(frame.bodies.size()) +
+                     " bodies in this frame, the scene has " + std::to_string(world.states().size()));
   for (uint32_t i = 0; i < frame.bodies.size(); ++i) {
     const RecordedBody& recorded = frame.bodies[i];
     const pfx::BodyId id = world.bodyId(i);

@@ -1,10 +1,10 @@
-// A recording of a run: poses and velocities of every body after every step, with the state hash of each, so that any
-// frame can be shown at once and a run can be checked against it.
+// A recording of a run: poses and velocities of every body after every step, with the state hash of each, so
+// that any frame can be shown at once and a run can be checked against it.
 //
 // File, little endian, version 1:
-//   char[8] "VTRNREC\n" | u32 version | f32 dt (s) | u32 sub-steps | u32 frames | u32 length of target | target
-//   u64[frames + 1] offsets of the frames from the start of the file; the last is their end
-//   frames: u64 step | u64 state hash | u32 bodies | bodies x 13 f32 (position, orientation x y z w, linear velocity,
+//   char[8] "VTRNREC\n" | u32 version | f32 dt (s) | u32 sub-steps | u32 frames | u32 length of target |
+//   target u64[frames + 1] offsets of the frames from the start of the file; the last is their end frames:
+//   u64 step | u64 state hash | u32 bodies | bodies x 13 f32 (position, orientation x y z w, linear velocity,
 //           angular velocity) | bodies x u8 (1: asleep)
 //   u64 XXH3 of everything before it
 #pragma once
@@ -32,8 +32,8 @@ struct RecordedFrame {
 };
 
 struct RecordingHead {
-  std::string target;   // of the scene
-  float dt = 0.0f;      // s
+  std::string target;  // of the scene
+  float dt = 0.0f;     // s
   uint32_t substeps = 0;
 };
 
@@ -41,8 +41,8 @@ class RecordingWriter {
  public:
   explicit RecordingWriter(RecordingHead head) : head_(std::move(head)) {}
 
-  void add(const pfx::World& world);           // the world as it is now, as the next frame
-  std::vector<uint8_t> bytes() const;          // of the file
+  void add(const pfx::World& world);   // the world as it is now, as the next frame
+  std::vector<uint8_t> bytes() const;  // of the file
   size_t numFrames() const { return ends_.size(); }
 
  private:

@@ -21,8 +21,8 @@ class SceneRun {
   // Builds the scene. Throws what the scene throws.
   explicit SceneRun(const SceneSpec& spec, const RunSettings& settings = {});
 
-  void step();                   // the scene's script, then one step of the world
-  void stepTo(uint64_t steps);   // until so many steps were made
+  void step();                  // the scene's script, then one step of the world
+  void stepTo(uint64_t steps);  // until so many steps were made
 
   const SceneSpec& spec() const { return spec_; }
   const RunSettings& settings() const { return settings_; }

@@ -10,7 +10,8 @@
 namespace viewer {
 namespace {
 
-// Letters to insert, delete or replace. Source: R. Wagner, M. Fischer, The String-to-String Correction Problem, 1974.
+// Letters to insert, delete or replace. Source: R. Wagner, M. Fischer, The String-to-String Correction
+// Problem, 1974.
 size_t editDistance(std::string_view a, std::string_view b) {
   std::vector<size_t> row(b.size() + 1);
   std::iota(row.begin(), row.end(), size_t(0));
@@ -48,7 +49,8 @@ std::string nearestTarget(std::span<const SceneSpec> scenes, std::string_view wa
 std::vector<SceneSpec> allScenes() {
   std::vector<SceneSpec> out;
   for (const samples::SceneEntry& e : samples::scenes())
-    out.push_back({std::string(e.sample), std::string(e.name), std::string(e.shows), e.camera, e.frames, e.world, e.make});
+    out.push_back({std::string(e.sample), std::string(e.name), std::string(e.shows), e.camera, e.frames,
+                   e.world, e.make});
   return out;
 }
 
@@ -57,15 +59,18 @@ std::vector<SceneSpec> findTarget(std::span<const SceneSpec> scenes, std::string
   const std::string_view sample = target.substr(0, slash);
   std::vector<SceneSpec> found;
   for (const SceneSpec& s : scenes)
-    if (s.sample == sample && (slash == target.npos || s.name == target.substr(slash + 1))) found.push_back(s);
+    if (s.sample == sample && (slash == target.npos || s.name == target.substr(slash + 1)))
+      found.push_back(s);
   if (!found.empty()) return found;
 
   const std::string text(target);
   if (std::filesystem::path(text).extension() == ".xml")
-    throw InputError(text + (std::filesystem::exists(text) ? ": scene files cannot be run yet" : ": no such scene file"));
+    throw InputError(
+        text + (std::filesystem::exists(text) ? ": scene files cannot be run yet" : ": no such scene file"));
   const std::string nearest = nearestTarget(scenes, target);
   throw InputError("unknown sample or scene \"" + text + "\"" +
-                   (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") + " (vitrine list shows all)");
+                   (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") +
+                   " (vitrine list shows all)");
 }
 
 SceneSpec findScene(std::span<const SceneSpec> scenes, std::string_view target) {

@@ -13,11 +13,11 @@
 namespace viewer {
 
 struct SceneSpec {
-  std::string sample;        // "2_stable"; of a file: its stem
-  std::string name;          // "tower"
-  std::string shows;         // one line
+  std::string sample;  // "2_stable"; of a file: its stem
+  std::string name;    // "tower"
+  std::string shows;   // one line
   samples::CameraPose camera;
-  std::vector<int> frames;   // to be photographed
+  std::vector<int> frames;  // to be photographed
   pfx::WorldDef world;
   std::function<std::unique_ptr<samples::Scene>()> make;
 
@@ -27,10 +27,12 @@ struct SceneSpec {
 // All sample scenes, in the order of the browser.
 std::vector<SceneSpec> allScenes();
 
-// The scenes of `scenes` that TARGET names: SAMPLE or SAMPLE/SCENE. Throws InputError naming the nearest known target.
+// The scenes of `scenes` that TARGET names: SAMPLE or SAMPLE/SCENE. Throws InputError naming the nearest
+// known target.
 std::vector<SceneSpec> findTarget(std::span<const SceneSpec> scenes, std::string_view target);
 
-// The one scene that TARGET names: SAMPLE/SCENE, or the SAMPLE of a single scene. Throws InputError when there are more.
+// The one scene that TARGET names: SAMPLE/SCENE, or the SAMPLE of a single scene. Throws InputError when
+// there are more.
 SceneSpec findScene(std::span<const SceneSpec> scenes, std::string_view target);
 
 }  // namespace viewer

@@ -1,5 +1,5 @@
-// Box against box: separating axes (S. Gottschalk et al., OBBTree, SIGGRAPH 1996), then clipping of the two faces or the
-// closest points of two edges.
+// Box against box: separating axes (S. Gottschalk et al., OBBTree, SIGGRAPH 1996), then clipping of the two
+// faces or the closest points of two edges.
 #include <algorithm>
 #include <cmath>
 
@@ -10,17 +10,18 @@
 namespace pfx {
 namespace {
 
-// An axis must beat a face of A, and an edge axis must beat a face, by this fraction of the boxes' size: the choice
-// among equally good axes must not depend on rounding.
+// An axis must beat a face of A, and an edge axis must beat a face, by this fraction of the boxes' size: the
+// choice among equally good axes must not depend on rounding.
 constexpr float kPreference = 5e-6f;
 // The axis of the last frame is kept until another one beats it by this fraction of the smaller box.
 constexpr float kHysteresis = 1e-3f;
-// Below this gap, as a fraction of the boxes' size, the direction between the closest points is mostly rounding.
+// Below this gap, as a fraction of the boxes' size, the direction between the closest points is mostly
+// rounding.
 constexpr float kNear = 1e-4f;
 
 struct Axis {
   float separation = -1e30f;
-  int code = 0;  // 1..3 face of A, 4..6 face of B, 7 + 3 i + j: edge i of A x edge j of B
+  int code = 0;                 // 1..3 face of A, 4..6 face of B, 7 + 3 i + j: edge i of A x edge j of B
   Vec3 normal = Vec3::UnitY();  // A to B
 };
 
@@ -86,7 +87,8 @@ Axis bestAxis(const Vec3& ha, const Vec3& hb, const RelativePose& b, float margi
   return best_edge.separation > best.separation + preference ? best_edge : best;
 }
 
-void faceContact(const Axis& axis, const BoxPolytope& a, const BoxPolytope& b, const LocalPair& pair, LocalManifold& m) {
+void faceContact(const Axis& axis, const BoxPolytope& a, const BoxPolytope& b, const LocalPair& pair,
+                 LocalManifold& m) {
   const Polytope pa = a.view(), pb = b.view();
   ContactPolygon face_a, face_b;
   loadFace(pa, supportingFace(pa, axis.normal), face_a);
@@ -99,8 +101,8 @@ void faceContact(const Axis& axis, const BoxPolytope& a, const BoxPolytope& b, c
   }
 }
 
-// The two edges that support the axis: half extents along the edge, signs of the axis across it. Returns the distance of
-// their closest points.
+// The two edges that support the axis: half extents along the edge, signs of the axis across it. Returns the
+// distance of their closest points.
 float edgeContact(const Axis& axis, const Vec3& ha, const Vec3& hb, const LocalPair& pair, LocalManifold& m) {
   const int i = (axis.code - 7) / 3, j = (axis.code - 7) % 3;
   const Vec3 n_b = -pair.b_in_a.rotateToB(axis.normal);
@@ -165,7 +167,8 @@ void collideBoxBox(const LocalPair& pair, LocalResult& result) {
     reached = edgeContact(axis, ha, hb, pair, result.manifold);
   }
   const float near = kNear * (ha.minCoeff() + hb.minCoeff());
-  const bool corner = axis.separation > near && reached > axis.separation + kPreference * (ha.sum() + hb.sum());
+  const bool corner =
+      axis.separation > near && reached > axis.separation + kPreference * (ha.sum() + hb.sum());
   if (corner) result.manifold.num_points = 0;
   if (result.manifold.num_points == 0) closestPoints(a, b, axis, pair, result);
 }

@@ -1,4 +1,5 @@
-// Capsule against capsule, box and convex mesh. A capsule that lies along its partner gets two points, else one.
+// Capsule against capsule, box and convex mesh. A capsule that lies along its partner gets two points, else
+// one.
 #include <algorithm>
 #include <cmath>
 
@@ -12,8 +13,8 @@ namespace {
 // Segments count as parallel below this squared sine (three degrees); capsules then touch along a line.
 constexpr float kParallelSquaredSine = 0.0027f;
 
-// Segments that cross this close, as a fraction of the size, get the normal of their common plane; the direction between
-// the closest points would be mostly rounding.
+// Segments that cross this close, as a fraction of the size, get the normal of their common plane; the
+// direction between the closest points would be mostly rounding.
 constexpr float kCrossing = 1e-3f;
 
 Vec3 crossNormal(const Vec3& axis_a, const Vec3& axis_b, const Vec3& toward) {
@@ -39,25 +40,28 @@ void collideCapsuleCapsule(const LocalPair& pair, LocalResult& result) {
   LocalManifold& m = result.manifold;
   const float size = std::max(a.half_length + a.radius, b.half_length + b.radius);
   const bool crossing = length < kCrossing * size && isInner(at.s) && isInner(at.t);
-  m.normal = crossing || length < 1e-6f * size ? crossNormal(axis_a, axis_b, q - p) : Vec3((q - p) / length);
+  m.normal =
+      crossing || !(length > 1e-6f * size) ? crossNormal(axis_a, axis_b, q - p) : Vec3((q - p) / length);
   const float distance = length - radius;
   if (distance > pair.margin) {
     result.separation = distance;
     return;
   }
   const auto addAt = [&](const Vec3& on_a, const Vec3& on_b, uint32_t id) {
-    const LocalContact c = oppositePoints(on_a + a.radius * m.normal, on_b - b.radius * m.normal, m.normal, id);
+    const LocalContact c =
+        oppositePoints(on_a + a.radius * m.normal, on_b - b.radius * m.normal, m.normal, id);
     if (c.distance <= pair.margin) m.add(c);
   };
 
-  // Side by side: the ends of the stretch of B that lies beside A. Distances are taken along the normal, so the point on
-  // A is the foot of the point on B.
+  // Side by side: the ends of the stretch of B that lies beside A. Distances are taken along the normal, so
+  // the point on A is the foot of the point on B.
   const float squared_sine = axis_b.tail<2>().squaredNorm();
   const bool beside = std::abs(m.normal.x()) < 0.05f;
   if (squared_sine < kParallelSquaredSine && beside) {
     const float slope = axis_b.x();
     const float u0 = (-a.half_length - center_b.x()) / slope, u1 = (a.half_length - center_b.x()) / slope;
-    const float lo = std::max(std::min(u0, u1), -b.half_length), hi = std::min(std::max(u0, u1), b.half_length);
+    const float lo = std::max(std::min(u0, u1), -b.half_length),
+                hi = std::min(std::max(u0, u1), b.half_length);
     if (hi - lo > 1e-3f * size) {
       for (const auto& [u, id] : {std::pair(lo, 2u), std::pair(hi, 3u)}) {
         const Vec3 on_b = center_b + u * axis_b;

@@ -1,4 +1,5 @@
-// A vertex of the clipped polygon carries the two edges that it lies between; they name it from frame to frame.
+// A vertex of the clipped polygon carries the two edges that it lies between; they name it from frame to
+// frame.
 #include "pfx/base_level/collision/contact_clipping.h"
 
 #include <algorithm>
@@ -12,24 +13,27 @@ namespace {
 constexpr int kMaxClipped = 2 * kMaxFaceVertices + 2;
 constexpr uint32_t kReferenceEdge = 0x100;
 
-// A vertex this fraction of the smaller face outside a side plane still counts as inside. Edges that lie on top of each
-// other would otherwise flicker between two names.
+// A vertex this fraction of the smaller face outside a side plane still counts as inside. Edges that lie on
+// top of each other would otherwise flicker between two names.
 constexpr float kInsideTolerance = 1e-4f;
 
 struct ClipVertex {
   Vec3 p;
-  float side;               // m, outside of the current plane
+  float side;  // m, outside of the current plane
   uint32_t edge_in, edge_out;
 };
 
 float extent(const ContactPolygon& polygon) {
   float squared = 0.0f;
-  for (int i = 1; i < polygon.count; ++i) squared = std::max(squared, (polygon.vertices[i] - polygon.vertices[0]).squaredNorm());
+  for (int i = 1; i < polygon.count; ++i)
+    squared = std::max(squared, (polygon.vertices[i] - polygon.vertices[0]).squaredNorm());
   return std::sqrt(squared);
 }
 
-// One pass of the clipper: keeps what lies on the inner side of `plane`, which belongs to reference edge `edge`.
-int clipByPlane(ClipVertex* in, int count, const Plane& plane, uint32_t edge, float tolerance, ClipVertex* out) {
+// One pass of the clipper: keeps what lies on the inner side of `plane`, which belongs to reference edge
+// `edge`.
+int clipByPlane(ClipVertex* in, int count, const Plane& plane, uint32_t edge, float tolerance,
+                ClipVertex* out) {
   for (int i = 0; i < count; ++i) in[i].side = plane.normal.dot(in[i].p) - plane.offset;
   int n = 0;
   for (int i = 0; i < count; ++i) {
@@ -46,21 +50,11 @@ int clipByPlane(ClipVertex* in, int count, const Plane& plane, uint32_t edge, fl
 }
 
 uint32_t featureName(const ClipVertex& v, const ClipInput& in) {
-  return (v.edge_in & 0x1ff) | (v.edge_out & 0x1ff) << 9 | (in.reference.id & 0x3f) << 18 | (in.incident.id & 0x3f) << 24 |
-         uint32_t(in.reference_is_a) << 30 | 1u << 31;
+  return (v.edge_in & 0x1ff) | (v.edge_out & 0x1ff) << 9 | (in.reference.id & 0x3f) << 18 |
+         (in.incident.id & 0x3f) << 24 | uint32_t(in.reference_is_a) << 30 | 1u << 31;
 }
 
 }  // namespace
-
-uint32_t supportingFace(const Polytope& polytope, const Vec3& direction) {
-  uint32_t best = 0;
-  float cosine = polytope.planes[0].normal.dot(direction);
-  for (uint32_t f = 1; f < polytope.planes.size(); ++f) {
-    const float c = polytope.planes[f].normal.dot(direction);
-    if (c > cosine) cosine = c, best = f;
-  }
-  return best;
-}
 
 uint32_t supportingFaceAt(const Polytope& polytope, const Vec3& direction, uint32_t vertex) {
   uint32_t best = 0;
@@ -106,7 +100,8 @@ void clipFaces(const ClipInput& in, LocalManifold& manifold) {
     const float length = side.norm();
     if (!(length > 0.0f)) continue;
     const Vec3 outward = side / length;
-    count = clipByPlane(current, count, {outward, outward.dot(r)}, kReferenceEdge | uint32_t(i), tolerance, next);
+    count =
+        clipByPlane(current, count, {outward, outward.dot(r)}, kReferenceEdge | uint32_t(i), tolerance, next);
     std::swap(current, next);
   }
 
@@ -119,8 +114,9 @@ void clipFaces(const ClipInput& in, LocalManifold& manifold) {
     const float distance = in.reference_is_a ? along : -along;
     if (!(distance <= in.margin)) continue;
     const Vec3 q = p - along * n;
-    candidates[num_candidates++] = in.reference_is_a ? LocalContact{q, p, distance, featureName(current[i], in)}
-                                                     : LocalContact{p, q, distance, featureName(current[i], in)};
+    candidates[num_candidates++] = in.reference_is_a
+                                       ? LocalContact{q, p, distance, featureName(current[i], in)}
+                                       : LocalContact{p, q, distance, featureName(current[i], in)};
   }
   reduceContacts({candidates, size_t(num_candidates)}, manifold);
 }

@@ -14,19 +14,17 @@ struct ContactPolygon {
   Vec3 vertices[kMaxFaceVertices];
 };
 
-// The face of a polytope whose normal is closest to `direction` (frame of the polytope).
-uint32_t supportingFace(const Polytope& polytope, const Vec3& direction);
-
-// The same among the faces that have `vertex` as a corner: the face that a shape turns to its partner when that corner is
-// the one that reaches farthest.
+// The face whose normal is closest to `direction` among those that have `vertex` as a corner: the face that a
+// shape turns to its partner when that corner is the one that reaches farthest.
 uint32_t supportingFaceAt(const Polytope& polytope, const Vec3& direction, uint32_t vertex);
 
 void loadFace(const Polytope& polytope, uint32_t face, ContactPolygon& polygon);
 void loadFace(const Polytope& polytope, uint32_t face, const RelativePose& pose, ContactPolygon& polygon);
 
-// Clips the incident face by the side planes of the reference face, extruded along manifold.normal, and keeps the four
-// best points that lie at most `margin` away along the normal. The normal points from A to B and must not be parallel
-// to the reference face. Source: Sutherland and Hodgman, Reentrant polygon clipping, CACM 17(1), 1974.
+// Clips the incident face by the side planes of the reference face, extruded along manifold.normal, and keeps
+// the four best points that lie at most `margin` away along the normal. The normal points from A to B and
+// must not be parallel to the reference face. Source: Sutherland and Hodgman, Reentrant polygon clipping,
+// CACM 17(1), 1974.
 struct ClipInput {
   const ContactPolygon& reference;
   const ContactPolygon& incident;
@@ -35,8 +33,8 @@ struct ClipInput {
 };
 void clipFaces(const ClipInput& input, LocalManifold& manifold);
 
-// Closest points of two segments (C. Ericson, Real-Time Collision Detection, 2005, section 5.1.9), as fractions of their
-// lengths.
+// Closest points of two segments (C. Ericson, Real-Time Collision Detection, 2005, section 5.1.9), as
+// fractions of their lengths.
 struct SegmentPair {
   float s = 0.0f, t = 0.0f;
 };

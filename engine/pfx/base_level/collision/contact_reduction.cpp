@@ -1,5 +1,5 @@
-// Up to eight candidates are searched exhaustively; more are first thinned to the extreme points in eight directions,
-// which loses at most a few per cent of the area.
+// Up to eight candidates are searched exhaustively; more are first thinned to the extreme points in eight
+// directions, which loses at most a few per cent of the area.
 #include "pfx/base_level/collision/contact_reduction.h"
 
 #include <algorithm>
@@ -30,28 +30,56 @@ float squaredSpan(const Planar& a, const Planar& b) {
   return (a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y);
 }
 
-// Extreme points in eight directions, and the deepest point, without repetition.
-int thinOut(std::span<const LocalContact> candidates, const TangentPair& t, int deepest, Planar* out) {
-  static constexpr float kDirections[8][2] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}, {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
+// A few candidates in their own order, each at most once.
+struct Thinned {
+  Planar points[kMaxExhaustive];
+  int count = 0;
+
+  bool holds(int index) const {
+    return std::any_of(points, points + count, [&](const Planar& p) { return p.index == index; });
+  }
+  void add(const Planar& p) {
+    if (holds(p.index) || count == kMaxExhaustive) return;
+    int place = count++;
+    for (; place > 0 && points[place - 1].index > p.index; --place) points[place] = points[place - 1];
+    points[place] = p;
+  }
+  float squaredDistance(const Planar& p) const {
+    float nearest = 1e30f;
+    for (int i = 0; i < count; ++i) nearest = std::min(nearest, squaredSpan(points[i], p));
+    return nearest;
+  }
+};
+
+// The deepest point and the extreme points in eight directions. A cloud with fewer than four of them gets
+// those that lie farthest from what it has.
+Thinned thinOut(std::span<const LocalContact> candidates, const TangentPair& t, int deepest) {
+  static constexpr float kDirections[8][2] = {{1, 0}, {0, 1},  {-1, 0},  {0, -1},
+                                              {1, 1}, {-1, 1}, {-1, -1}, {1, -1}};
   const auto planar = [&](int i) {
     const LocalContact& c = candidates[i];
     return Planar{c.point_b.dot(t.t1), c.point_b.dot(t.t2), c.distance, i};
   };
-  int count = 0;
-  out[count++] = planar(deepest);
+  Thinned thinned;
+  thinned.add(planar(deepest));
   for (const auto& d : kDirections) {
     Planar best = planar(0);
     for (int i = 1; i < int(candidates.size()); ++i) {
       const Planar p = planar(i);
       if (p.x * d[0] + p.y * d[1] > best.x * d[0] + best.y * d[1]) best = p;
     }
-    const bool known = std::any_of(out, out + count, [&](const Planar& p) { return p.index == best.index; });
-    if (known || count == kMaxExhaustive) continue;
-    int place = count++;  // kept in the order of the candidates
-    for (; place > 0 && out[place - 1].index > best.index; --place) out[place] = out[place - 1];
-    out[place] = best;
+    thinned.add(best);
   }
-  return count;
+  while (thinned.count < kMaxContactPoints) {
+    Planar best = planar(0);
+    float reach = -1.0f;
+    for (int i = 0; i < int(candidates.size()); ++i) {
+      const Planar p = planar(i);
+      if (const float d = thinned.squaredDistance(p); d > reach && !thinned.holds(i)) reach = d, best = p;
+    }
+    thinned.add(best);
+  }
+  return thinned;
 }
 
 struct Choice {
@@ -88,16 +116,17 @@ void reduceContacts(std::span<const LocalContact> candidates, LocalManifold& man
     if (candidates[i].distance < candidates[deepest].distance) deepest = i;
   }
   const TangentPair t = tangents(manifold.normal);
-  Planar planar[kMaxExhaustive];
-  int count = 0;
+  Thinned thinned;
   if (n <= kMaxExhaustive) {
-    for (const LocalContact& c : candidates) {
-      planar[count] = {c.point_b.dot(t.t1), c.point_b.dot(t.t2), c.distance, count};
-      ++count;
+    for (int i = 0; i < n; ++i) {
+      thinned.add(
+          {candidates[i].point_b.dot(t.t1), candidates[i].point_b.dot(t.t2), candidates[i].distance, i});
     }
   } else {
-    count = thinOut(candidates, t, deepest, planar);
+    thinned = thinOut(candidates, t, deepest);
   }
+  const Planar* planar = thinned.points;
+  const int count = thinned.count;
   if (count <= kMaxContactPoints) {
     for (int i = 0; i < count; ++i) manifold.add(candidates[planar[i].index]);
     return;

@@ -8,7 +8,8 @@ namespace {
 
 ConvexCore::Support boxSupport(const Vec3& h, const Vec3& d) {
   const bool x = d.x() >= 0.0f, y = d.y() >= 0.0f, z = d.z() >= 0.0f;
-  return {Vec3(x ? h.x() : -h.x(), y ? h.y() : -h.y(), z ? h.z() : -h.z()), uint32_t(x) | uint32_t(y) << 1 | uint32_t(z) << 2};
+  return {Vec3(x ? h.x() : -h.x(), y ? h.y() : -h.y(), z ? h.z() : -h.z()),
+          uint32_t(x) | uint32_t(y) << 1 | uint32_t(z) << 2};
 }
 
 ConvexCore::Support cylinderSupport(float half_length, float radius, const Vec3& d) {
@@ -19,28 +20,24 @@ ConvexCore::Support cylinderSupport(float half_length, float radius, const Vec3&
   return {Vec3(x, k * d.y(), k * d.z()), ConvexCore::kSmooth};
 }
 
-ConvexCore::Support polytopeSupport(std::span<const Vec3> vertices, const Vec3& d) {
-  uint32_t best = 0;
-  float reach = vertices[0].dot(d);
-  for (uint32_t i = 1; i < vertices.size(); ++i) {
-    const float r = vertices[i].dot(d);
-    if (r > reach) reach = r, best = i;
-  }
-  return {vertices[best], best};
-}
-
 }  // namespace
 
 ConvexCore::Support ConvexCore::support(const Vec3& d) const {
   switch (kind) {
-    case Kind::Point: break;
+    case Kind::Point:
+      break;
     case Kind::Segment: {
       const bool positive = d.x() >= 0.0f;
       return {Vec3(positive ? size.x() : -size.x(), 0.0f, 0.0f), uint32_t(positive)};
     }
-    case Kind::Box: return boxSupport(size, d);
-    case Kind::Cylinder: return cylinderSupport(size.x(), size.y(), d);
-    case Kind::Polytope: return polytopeSupport(polytope->vertices, d);
+    case Kind::Box:
+      return boxSupport(size, d);
+    case Kind::Cylinder:
+      return cylinderSupport(size.x(), size.y(), d);
+    case Kind::Polytope: {
+      const uint32_t v = farthestVertex(*polytope, d);
+      return {polytope->vertices[v], v};
+    }
   }
   return {Vec3::Zero(), 0};
 }

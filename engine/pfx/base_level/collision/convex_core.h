@@ -1,6 +1,6 @@
-// The core of a convex shape: what is left when its rounding radius is taken off. A sphere is a rounded point, a
-// capsule a rounded segment; box, cylinder and convex mesh have no rounding, so the shape simulated is the shape
-// given.
+// The core of a convex shape: what is left when its rounding radius is taken off. A sphere is a rounded
+// point, a capsule a rounded segment; box, cylinder and convex mesh have no rounding, so the shape simulated
+// is the shape given.
 #pragma once
 
 #include "pfx/base_level/shape/convex_mesh.h"
@@ -12,9 +12,10 @@ struct ConvexCore {
   enum class Kind : uint8_t { Point, Segment, Box, Cylinder, Polytope };
 
   Kind kind = Kind::Point;
-  float radius = 0.0f;                // m, rounding
-  Vec3 size = Vec3::Zero();           // m; segment: x = half length; box: half extents; cylinder: x = half length, y = radius
-  const Polytope* polytope = nullptr; // kind Polytope only
+  float radius = 0.0f;  // m, rounding
+  Vec3 size =
+      Vec3::Zero();  // m; segment: x = half length; box: half extents; cylinder: x = half length, y = radius
+  const Polytope* polytope = nullptr;  // kind Polytope only
 
   struct Support {
     Vec3 point;   // m, frame of the core

@@ -1,5 +1,5 @@
-// Cylinder against box, capsule, cylinder and convex mesh. A cap gives a face-like patch, the side a line, a rim one
-// point; the axis comes from the closest points, or with an overlap from a descent.
+// Cylinder against box, capsule, cylinder and convex mesh. A cap gives a face-like patch, the side a line, a
+// rim one point; the axis comes from the closest points, or with an overlap from a descent.
 #include <algorithm>
 #include <cmath>
 
@@ -12,7 +12,8 @@
 namespace pfx {
 namespace {
 
-constexpr float kCapCosine = 0.8f;   // of the angle between the contact normal and the axis: a cap faces the other shape
+constexpr float kCapCosine =
+    0.8f;  // of the angle between the contact normal and the axis: a cap faces the other shape
 constexpr float kSideCosine = 0.3f;  // below: the side does
 constexpr float kNear = 1e-4f;       // of the size; see polytope_pair.cpp
 constexpr float kSameDepth = 1e-5f;  // of the size: depths that count as equal
@@ -24,7 +25,11 @@ bool hasSide(float cosine) { return std::abs(cosine) < kSideCosine; }
 ContactDisc cap(const Cylinder& c, const RelativePose& pose, float cosine) {
   const float sign = cosine < 0.0f ? -1.0f : 1.0f;
   const Vec3 normal = sign * pose.rotation.col(0);
-  return {pose.position + c.half_length * normal, normal, pose.rotation.col(1), pose.rotation.col(2), c.radius,
+  return {pose.position + c.half_length * normal,
+          normal,
+          pose.rotation.col(1),
+          pose.rotation.col(2),
+          c.radius,
           cosine < 0.0f ? 1u : 2u};
 }
 
@@ -88,7 +93,8 @@ Vec3 bestPolytopeAxis(const CylinderPair& p) {
     const float length = n.norm();
     if (!(length > 1e-4f * along.norm())) continue;
     n /= length;
-    const Vec3 outward = pose.rotation * (p.polytope->planes[e.left].normal + p.polytope->planes[e.right].normal);
+    const Vec3 outward =
+        pose.rotation * (p.polytope->planes[e.left].normal + p.polytope->planes[e.right].normal);
     consider(n.dot(outward) > 0.0f ? Vec3(-n) : n);
   }
   return best;
@@ -164,7 +170,8 @@ void collideCylinderPolytope(const CylinderPair& p, LocalResult& result) {
   loadFace(*p.polytope, supportingFaceAt(*p.polytope, to_b, p.b.support(to_b).id), pose, face);
   if (-face.normal.dot(n) > kCapCosine) {
     if (hasCap(n.x())) contacts.discFace(cap(p.cylinder, {}, n.x()), face);
-    if (hasSide(n.x())) contacts.segmentFace(sideLine({}, p.cylinder.half_length, p.cylinder.radius, n), face);
+    if (hasSide(n.x()))
+      contacts.segmentFace(sideLine({}, p.cylinder.half_length, p.cylinder.radius, n), face);
   }
   finish(p, axis, contacts, result.manifold);
 }
@@ -182,7 +189,8 @@ void collideCylinderBox(const LocalPair& pair, LocalResult& result) {
 void collideCylinderConvex(const LocalPair& pair, LocalResult& result) {
   const Cylinder& cylinder = std::get<Cylinder>(pair.a);
   const Polytope polytope = std::get<const ConvexMesh*>(pair.b)->view();
-  collideCylinderPolytope({cylinder, cylinderCore(cylinder), polytopeCore(polytope), pair, &polytope}, result);
+  collideCylinderPolytope({cylinder, cylinderCore(cylinder), polytopeCore(polytope), pair, &polytope},
+                          result);
 }
 
 void collideCylinderCapsule(const LocalPair& pair, LocalResult& result) {
@@ -195,7 +203,8 @@ void collideCylinderCapsule(const LocalPair& pair, LocalResult& result) {
   ContactCollector contacts = collector(p, axis);
   if (hasSide(n.dot(pair.b_in_a.rotation.col(0)))) {
     // The lowest line of the capsule is its core moved down along the normal.
-    const Vec3 middle = pair.b_in_a.position - capsule.radius * n, half = capsule.half_length * pair.b_in_a.rotation.col(0);
+    const Vec3 middle = pair.b_in_a.position - capsule.radius * n,
+               half = capsule.half_length * pair.b_in_a.rotation.col(0);
     const ContactSegment line{middle - half, middle + half, 4};
     if (hasCap(n.x())) contacts.discSegment(cap(cylinder, {}, n.x()), line, true);
     if (hasSide(n.x())) contacts.segmentSegment(sideLine({}, cylinder.half_length, cylinder.radius, n), line);
@@ -220,7 +229,8 @@ void collideCylinderCylinder(const LocalPair& pair, LocalResult& result) {
     contacts.discSegment(cap(b, pose, cosine_b), sideLine({}, a.half_length, a.radius, n), false);
   }
   if (hasSide(n.x()) && hasSide(cosine_b)) {
-    contacts.segmentSegment(sideLine({}, a.half_length, a.radius, n), sideLine(pose, b.half_length, b.radius, -n));
+    contacts.segmentSegment(sideLine({}, a.half_length, a.radius, n),
+                            sideLine(pose, b.half_length, b.radius, -n));
   }
   finish(p, axis, contacts, result.manifold);
 }

@@ -1,5 +1,5 @@
-// Everything is seen along the contact normal. In the plane of a disc the disc is an exact circle, so what the other
-// shape shows is projected into that plane.
+// Everything is seen along the contact normal. In the plane of a disc the disc is an exact circle, so what
+// the other shape shows is projected into that plane.
 #include "pfx/base_level/collision/feature_contacts.h"
 
 #include <algorithm>
@@ -8,9 +8,9 @@
 namespace pfx {
 namespace {
 
-constexpr float kLevel = 3e-4f;             // tilt (tangent) below which a cap counts as lying flat
+constexpr float kLevel = 3e-4f;  // tilt (tangent) below which a cap counts as lying flat
 constexpr float kParallelSquaredSine = 0.0027f;
-constexpr float kInside = 1e-4f;            // of the radius; see kInsideTolerance in contact_clipping.cpp
+constexpr float kInside = 1e-4f;  // of the radius; see kInsideTolerance in contact_clipping.cpp
 
 // Distance along n from p to the plane through `origin` with the given normal.
 float alongTo(const Vec3& p, const Vec3& origin, const Vec3& plane_normal, const Vec3& n) {
@@ -36,10 +36,14 @@ Vec2 firstRimDirection(const ContactDisc& disc, const Vec3& other_normal, const 
 
 Vec2 quarterTurns(const Vec2& d, int k) {
   switch (k & 3) {
-    case 0: return d;
-    case 1: return Vec2(-d.y(), d.x());
-    case 2: return -d;
-    default: return Vec2(d.y(), -d.x());
+    case 0:
+      return d;
+    case 1:
+      return Vec2(-d.y(), d.x());
+    case 2:
+      return -d;
+    default:
+      return Vec2(d.y(), -d.x());
   }
 }
 
@@ -72,7 +76,8 @@ bool insideFace(const ContactPolygon& face, const Vec3& p, const Vec3& n, float 
 
 void ContactCollector::add(const Vec3& on_a, const Vec3& on_b, uint32_t feature) {
   const LocalContact c = oppositePoints(on_a, on_b, normal_, feature);
-  if (c.distance > range_.margin || c.distance < range_.separation - range_.tolerance || count_ == kCapacity) return;
+  if (c.distance > range_.margin || c.distance < range_.separation - range_.tolerance || count_ == kCapacity)
+    return;
   contacts_[count_++] = c;
 }
 
@@ -87,7 +92,8 @@ void ContactCollector::ensureDepth(const Vec3& on_a, const Vec3& on_b) {
 void ContactCollector::discFace(const ContactDisc& a, const ContactPolygon& b) {
   const auto addAt = [&](const Vec2& p, uint32_t id) {
     const Vec3 on_a = lift(a, p);
-    add(on_a, on_a + alongTo(on_a, b.vertices[0], b.normal, normal_) * normal_, id | a.id << 12 | (b.id & 0xfff) << 16);
+    add(on_a, on_a + alongTo(on_a, b.vertices[0], b.normal, normal_) * normal_,
+        id | a.id << 12 | (b.id & 0xfff) << 16);
   };
   const Vec2 first = firstRimDirection(a, b.normal, normal_);
   for (int k = 0; k < 4; ++k) {
@@ -95,7 +101,8 @@ void ContactCollector::discFace(const ContactDisc& a, const ContactPolygon& b) {
     if (insideFace(b, lift(a, rim), normal_, kInside * a.radius)) addAt(rim, 2 + k);
   }
   for (int i = 0; i < b.count; ++i) {
-    const Vec2 p = planar(a, b.vertices[i], normal_), q = planar(a, b.vertices[i + 1 < b.count ? i + 1 : 0], normal_);
+    const Vec2 p = planar(a, b.vertices[i], normal_),
+               q = planar(a, b.vertices[i + 1 < b.count ? i + 1 : 0], normal_);
     const Span span = lineInCircle(p, q, a.radius);
     if (!(span.lo < span.hi)) continue;
     if (span.lo <= 0.0f && span.hi > 0.0f) addAt(p, 16 + 4 * i);
@@ -110,7 +117,8 @@ void ContactCollector::discDisc(const ContactDisc& a, const ContactDisc& b) {
     const Vec3 on_a = lift(a, p);
     add(on_a, on_a + alongTo(on_a, b.center, b.normal, normal_) * normal_, id | name);
   };
-  const Vec2 first_a = firstRimDirection(a, b.normal, normal_), first_b = firstRimDirection(b, a.normal, normal_);
+  const Vec2 first_a = firstRimDirection(a, b.normal, normal_),
+             first_b = firstRimDirection(b, a.normal, normal_);
   for (int k = 0; k < 4; ++k) {
     const Vec2 rim_a = a.radius * quarterTurns(first_a, k), rim_b = b.radius * quarterTurns(first_b, k);
     if (planar(b, lift(a, rim_a), normal_).norm() <= b.radius * (1.0f + kInside)) addOnA(rim_a, 2 + k);
@@ -118,7 +126,8 @@ void ContactCollector::discDisc(const ContactDisc& a, const ContactDisc& b) {
     if (planar(a, on_b, normal_).norm() > a.radius * (1.0f - kInside)) continue;
     add(on_b + alongTo(on_b, a.center, a.normal, normal_) * normal_, on_b, (6 + k) | name);
   }
-  // Where the rims cross. B's rim is taken as a circle in the plane of A: the caps are nearly parallel when both touch.
+  // Where the rims cross. B's rim is taken as a circle in the plane of A: the caps are nearly parallel when
+  // both touch.
   const Vec2 c = planar(a, b.center, normal_);
   const float d = c.norm();
   if (!(d > kInside * a.radius) || d > a.radius + b.radius || d < std::abs(a.radius - b.radius)) return;

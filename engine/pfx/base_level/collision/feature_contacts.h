@@ -1,4 +1,5 @@
-// Contact patches of the features that a cylinder or capsule brings: discs and segments, against each other and faces.
+// Contact patches of the features that a cylinder or capsule brings: discs and segments, against each other
+// and faces.
 #pragma once
 
 #include "pfx/base_level/collision/contact_clipping.h"
@@ -20,8 +21,9 @@ struct ContactSegment {
   uint32_t id;
 };
 
-// Collects contacts along `normal` (unit, from A to B). Points farther apart than `margin` are left out, and so are points
-// deeper than `separation`, the gap of the shapes along the normal: such a point would lie beside one of them.
+// Collects contacts along `normal` (unit, from A to B). Points farther apart than `margin` are left out, and
+// so are points deeper than `separation`, the gap of the shapes along the normal: such a point would lie
+// beside one of them.
 class ContactCollector {
  public:
   struct Range {
@@ -37,8 +39,8 @@ class ContactCollector {
 
   void add(const Vec3& on_a, const Vec3& on_b, uint32_t feature);
 
-  // Adds a deepest point that is known from elsewhere, unless a collected one is as deep. What its two ends are apart
-  // across the normal is shared between them.
+  // Adds a deepest point that is known from elsewhere, unless a collected one is as deep. What its two ends
+  // are apart across the normal is shared between them.
   void ensureDepth(const Vec3& on_a, const Vec3& on_b);
 
   std::span<const LocalContact> contacts() const { return {contacts_, size_t(count_)}; }

@@ -1,5 +1,5 @@
-// The simplex holds points w = b - a of the difference B - A; the search looks for its point v closest to the origin.
-// Sub-problems by Voronoi regions (C. Ericson, Real-Time Collision Detection, 2005, chapter 5.1).
+// The simplex holds points w = b - a of the difference B - A; the search looks for its point v closest to the
+// origin. Sub-problems by Voronoi regions (C. Ericson, Real-Time Collision Detection, 2005, chapter 5.1).
 #include "pfx/base_level/collision/gjk.h"
 
 #include <cmath>
@@ -91,7 +91,8 @@ void keepTriangle(Simplex& s, const int (&index)[3], const TriangleWeights& weig
 
 // Returns true when the origin lies inside.
 bool solveTetrahedron(Simplex& s) {
-  static constexpr int kFaces[4][4] = {{0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}};  // last: opposite vertex
+  static constexpr int kFaces[4][4] = {
+      {0, 1, 2, 3}, {0, 3, 1, 2}, {0, 2, 3, 1}, {1, 3, 2, 0}};  // last: opposite vertex
   double best = 0.0;
   int best_face = -1;
   TriangleWeights best_weights{};
@@ -162,7 +163,12 @@ GjkResult gjkDistance(const GjkInput& in) {
     const double length = direction.cast<double>().norm();
     const double bound = v.dot(direction.cast<double>()) / length;
     if (bound > in.limit) {
-      return {GjkResult::State::BeyondLimit, float(bound), (direction.cast<double>() / length).cast<float>(), {}, {}, 1};
+      return {GjkResult::State::BeyondLimit,
+              float(bound),
+              (direction.cast<double>() / length).cast<float>(),
+              {},
+              {},
+              1};
     }
   }
   double scale = v.cwiseAbs().maxCoeff();

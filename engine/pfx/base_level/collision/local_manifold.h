@@ -9,15 +9,16 @@
 
 namespace pfx {
 
+// Left uninitialized on purpose: the clipper has room for hundreds of them.
 struct LocalContact {
-  Vec3 point_a = Vec3::Zero();  // m, on A, frame of A
-  Vec3 point_b = Vec3::Zero();  // m, on B, frame of A
-  float distance = 0.0f;        // m, (point_b - point_a) . normal
-  uint32_t feature = 0;
+  Vec3 point_a;      // m, on A, frame of A
+  Vec3 point_b;      // m, on B, frame of A
+  float distance;    // m, (point_b - point_a) . normal
+  uint32_t feature;  // names the pair of features
 };
 
-// A contact between two points that do not lie exactly opposite each other: what they are apart across the normal is
-// shared between them.
+// A contact between two points that do not lie exactly opposite each other: what they are apart across the
+// normal is shared between them.
 inline LocalContact oppositePoints(const Vec3& on_a, const Vec3& on_b, const Vec3& normal, uint32_t feature) {
   const Vec3 gap = on_b - on_a;
   const float distance = gap.dot(normal);
@@ -36,7 +37,8 @@ struct LocalManifold {
 // Smallest distance of its points; a large number when there is none (m).
 inline float deepest(const LocalManifold& m) {
   float distance = 1e30f;
-  for (int i = 0; i < m.num_points; ++i) distance = m.points[i].distance < distance ? m.points[i].distance : distance;
+  for (int i = 0; i < m.num_points; ++i)
+    distance = m.points[i].distance < distance ? m.points[i].distance : distance;
   return distance;
 }
 

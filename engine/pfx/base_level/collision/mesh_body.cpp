@@ -43,7 +43,7 @@ void place(const Cylinder& c, MeshBody& body, MeshBodyBuffers) {
   body.half_length = c.half_length;
   body.cylinder_radius = c.radius;
   body.core = cylinderCore(c);
-  body.size = std::hypot(c.half_length, c.radius);
+  body.size = std::sqrt(c.half_length * c.half_length + c.radius * c.radius);
 }
 void place(const Box& b, MeshBody& body, MeshBodyBuffers buffers) {
   const BoxPolytope box(b.half_extent);

@@ -12,21 +12,27 @@ namespace pfx {
 namespace {
 
 constexpr int kMaxSteps = 16;
-constexpr float kPull = 0.02f;      // of the smaller core: the gap at which the next axis is measured
-constexpr float kDeep = 0.2f;       // of the smaller core: overlaps beyond this are searched from several sides
+constexpr float kPull = 0.02f;  // of the smaller core: the gap at which the next axis is measured
+constexpr float kDeep = 0.2f;   // of the smaller core: overlaps beyond this are searched from several sides
 constexpr int kMaxStarts = 6;
 constexpr int kGrid = 64;
 constexpr float kSameDirection = 0.9f;
 constexpr float kProgress = 1e-6f;  // of the smaller core: less than this ends the descent
 
-// Size of a core for tolerances: half the extent along its thinnest direction, or the whole of a segment or point.
+// Size of a core for tolerances: half the extent along its thinnest direction, or the whole of a segment or
+// point.
 float thickness(const ConvexCore& core) {
   switch (core.kind) {
-    case ConvexCore::Kind::Box: return core.size.minCoeff();
-    case ConvexCore::Kind::Cylinder: return std::min(core.size.x(), core.size.y());
-    case ConvexCore::Kind::Polytope: return core.polytope->inner_radius;
-    case ConvexCore::Kind::Segment: return std::max(core.size.x(), core.radius);
-    case ConvexCore::Kind::Point: break;
+    case ConvexCore::Kind::Box:
+      return core.size.minCoeff();
+    case ConvexCore::Kind::Cylinder:
+      return std::min(core.size.x(), core.size.y());
+    case ConvexCore::Kind::Polytope:
+      return core.polytope->inner_radius;
+    case ConvexCore::Kind::Segment:
+      return std::max(core.size.x(), core.radius);
+    case ConvexCore::Kind::Point:
+      break;
   }
   return core.radius;
 }
@@ -69,11 +75,13 @@ CoreAxis startAt(const ConvexCore& a, const ConvexCore& b, const RelativePose& b
 
 }  // namespace
 
-float separationAlong(const ConvexCore& a, const ConvexCore& b, const RelativePose& b_in_a, const Vec3& axis) {
+float separationAlong(const ConvexCore& a, const ConvexCore& b, const RelativePose& b_in_a,
+                      const Vec3& axis) {
   return startAt(a, b, b_in_a, axis).separation;
 }
 
-CoreAxis descendOverlap(const ConvexCore& a, const ConvexCore& b, const RelativePose& b_in_a, const Vec3& start) {
+CoreAxis descendOverlap(const ConvexCore& a, const ConvexCore& b, const RelativePose& b_in_a,
+                        const Vec3& start) {
   CoreAxis best = startAt(a, b, b_in_a, start);
   const float size = std::min(thickness(a), thickness(b));
   for (int step = 0; step < kMaxSteps; ++step) {
@@ -90,7 +98,8 @@ CoreAxis descendOverlap(const ConvexCore& a, const ConvexCore& b, const Relative
   return best;
 }
 
-CoreAxis leastOverlap(const ConvexCore& a, const ConvexCore& b, const RelativePose& b_in_a, std::span<const Vec3> candidates) {
+CoreAxis leastOverlap(const ConvexCore& a, const ConvexCore& b, const RelativePose& b_in_a,
+                      std::span<const Vec3> candidates) {
   std::array<Start, kMaxStarts> starts;
   int count = 0;
   const auto consider = [&](const Vec3& n) {

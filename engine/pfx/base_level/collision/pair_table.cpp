@@ -14,12 +14,15 @@ namespace {
 constexpr PairFunction kNone = nullptr;
 constexpr PairFunction kTable[kNumShapeTypes][kNumShapeTypes] = {
     // Sphere            Box                 Capsule                 Cylinder                 ConvexMesh
-    {collideSphereSphere, collideSphereBox, collideSphereCapsule, collideSphereCylinder, kNone, kNone},  // Sphere
-    {kNone, collideBoxBox, collideBoxCapsule, kNone, kNone, kNone},                                      // Box
-    {kNone, kNone, collideCapsuleCapsule, kNone, kNone, kNone},                                          // Capsule
-    {kNone, collideCylinderBox, collideCylinderCapsule, collideCylinderCylinder, collideCylinderConvex, kNone},
-    {collideConvexSphere, collideConvexBox, collideConvexCapsule, kNone, collideConvexConvex, kNone},  // ConvexMesh
-    {kNone, kNone, kNone, kNone, kNone, kNone},                                                        // LargeMesh
+    {collideSphereSphere, collideSphereBox, collideSphereCapsule, collideSphereCylinder, kNone,
+     kNone},                                                         // Sphere
+    {kNone, collideBoxBox, collideBoxCapsule, kNone, kNone, kNone},  // Box
+    {kNone, kNone, collideCapsuleCapsule, kNone, kNone, kNone},      // Capsule
+    {kNone, collideCylinderBox, collideCylinderCapsule, collideCylinderCylinder, collideCylinderConvex,
+     kNone},
+    {collideConvexSphere, collideConvexBox, collideConvexCapsule, kNone, collideConvexConvex,
+     kNone},                                     // ConvexMesh
+    {kNone, kNone, kNone, kNone, kNone, kNone},  // LargeMesh
 };
 
 float outerRadius(const Geometry& geometry) {
@@ -27,26 +30,30 @@ float outerRadius(const Geometry& geometry) {
     float operator()(const Sphere& s) const { return s.radius; }
     float operator()(const Box& b) const { return b.half_extent.norm(); }
     float operator()(const Capsule& c) const { return c.half_length + c.radius; }
-    float operator()(const Cylinder& c) const { return std::sqrt(c.half_length * c.half_length + c.radius * c.radius); }
+    float operator()(const Cylinder& c) const {
+      return std::sqrt(c.half_length * c.half_length + c.radius * c.radius);
+    }
     float operator()(const ConvexMesh* m) const { return m->outer_radius; }
     float operator()(const LargeMesh*) const { return 1e30f; }
   };
   return std::visit(Visitor{}, geometry);
 }
 
-void remember(PairCache& cache, const CollideInput& in, const Transform& b_in_a, const LocalResult& r, bool flipped) {
+void remember(PairCache& cache, const CollideInput& in, const Transform& b_in_a, const LocalResult& r,
+              bool flipped) {
+  const Quat& to_a = in.shape_a.offset.orientation;
   cache.hint = r.hint;
+  cache.axis = flipped ? b_in_a.orientation * (in.shape_b.offset.orientation * -r.manifold.normal)
+                       : to_a * r.manifold.normal;
   cache.separation = PairCache::kUnknown;
   if (r.manifold.num_points > 0 || !(r.separation > in.margin)) return;
-  const Quat& to_a = in.shape_a.offset.orientation;
-  cache.axis = flipped ? b_in_a.orientation * (in.shape_b.offset.orientation * -r.manifold.normal) : to_a * r.manifold.normal;
   cache.b_in_a = b_in_a;
   cache.separation = r.separation;
   cache.radius_b = outerRadius(in.shape_b.geometry) + in.shape_b.offset.position.norm();
 }
 
-void writeManifold(const CollideInput& in, const RelativePose& second_in_first, const LocalManifold& local, bool flipped,
-                   ContactManifold& out) {
+void writeManifold(const CollideInput& in, const RelativePose& second_in_first, const LocalManifold& local,
+                   bool flipped, ContactManifold& out) {
   const Shape& first = flipped ? in.shape_b : in.shape_a;
   const Shape& second = flipped ? in.shape_a : in.shape_b;
   const Transform& first_body = flipped ? in.body_b : in.body_a;
@@ -72,8 +79,8 @@ PairFunction pairFunction(ShapeType a, ShapeType b) { return kTable[int(a)][int(
 
 bool provablyApart(const PairCache& cache, const Transform& body_b_in_a, float margin) {
   if (cache.separation == PairCache::kUnknown) return false;
-  // |q - q'| is twice the sine of a quarter of the angle between them, and the chord at radius r is twice r times the
-  // sine of half of it, hence chord <= 2 |q - q'| r; q and -q are the same rotation.
+  // |q - q'| is twice the sine of a quarter of the angle between them, and the chord at radius r is twice r
+  // times the sine of half of it, hence chord <= 2 |q - q'| r; q and -q are the same rotation.
   const auto q = body_b_in_a.orientation.coeffs(), old = cache.b_in_a.orientation.coeffs();
   const float squared = std::min((q - old).squaredNorm(), (q + old).squaredNorm());
   const float turn = 2.0f * std::sqrt(squared) * cache.radius_b;
@@ -98,10 +105,8 @@ int collideShapes(const CollideInput& in, ContactManifold& out) {
   LocalPair pair{first.geometry, second.geometry, pose, in.margin, 0, Vec3::Zero()};
   if (in.cache != nullptr) {
     pair.hint = in.cache->hint;
-    if (in.cache->separation != PairCache::kUnknown) {
-      const Vec3 axis = in.shape_a.offset.orientation.conjugate() * in.cache->axis;
-      pair.axis = flipped ? Vec3(-(pose.rotation * axis)) : axis;
-    }
+    const Vec3 axis = in.shape_a.offset.orientation.conjugate() * in.cache->axis;
+    pair.axis = flipped ? Vec3(-(pose.rotation * axis)) : axis;
   }
   LocalResult result;
   collide(pair, result);

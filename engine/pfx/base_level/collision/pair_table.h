@@ -1,7 +1,8 @@
-// Narrow phase of one pair of convex shapes: the table of pair functions, and what a pair remembers between frames.
+// Narrow phase of one pair of convex shapes: the table of pair functions, and what a pair remembers between
+// frames.
 //
-// A large mesh is not convex; its pairs are handled by the mesh functions, and collideShapes() reports no contact for
-// them.
+// A large mesh is not convex; its pairs are handled by the mesh functions, and collideShapes() reports no
+// contact for them.
 #pragma once
 
 #include "pfx/base_level/collision/contact_manifold.h"
@@ -10,17 +11,17 @@
 
 namespace pfx {
 
-// What one pair of shapes remembers. Start with a default one and pass the same one in every frame. It never changes
-// which contacts are right: it lets a pair that provably cannot touch skip its test, and keeps the choice of features
-// steady while several are equally good.
+// What one pair of shapes remembers. Start with a default one and pass the same one in every frame. It never
+// changes which contacts are right: it lets a pair that provably cannot touch skip its test, and keeps the
+// choice of features steady while several are equally good.
 struct PairCache {
   static constexpr float kUnknown = -1e30f;
 
-  Transform b_in_a;              // pose of body B in the frame of body A when the axis was found
-  Vec3 axis = Vec3::UnitX();     // unit, from A to B, frame of body A
-  float separation = kUnknown;   // m, proven gap along the axis at that time
-  float radius_b = 0.0f;         // m, of a ball around the origin of body B that holds shape B
-  uint32_t hint = 0;             // features of the last manifold; zero: none
+  Transform b_in_a;             // pose of body B in the frame of body A when the axis was found
+  Vec3 axis = Vec3::Zero();     // unit, from A to B, frame of body A; zero at first
+  float separation = kUnknown;  // m, proven gap along the axis at that time
+  float radius_b = 0.0f;        // m, of a ball around the origin of body B that holds shape B
+  uint32_t hint = 0;            // features of the last manifold; zero: none
 };
 
 struct CollideInput {
@@ -32,13 +33,14 @@ struct CollideInput {
   PairCache* cache = nullptr;  // optional
 };
 
-// Writes the manifold of one pair: the normal in world axes from A to B, up to four points with a distance of at most
-// `margin`, each on the surfaces in the frames of the bodies. Impulses are zero. Returns the number of points.
-// Computed in the frame of A, so the distance from the world's origin does no harm beyond the rounding of the poses.
+// Writes the manifold of one pair: the normal in world axes from A to B, up to four points with a distance of
+// at most `margin`, each on the surfaces in the frames of the bodies. Impulses are zero. Returns the number
+// of points. Computed in the frame of A, so the distance from the world's origin does no harm beyond the
+// rounding of the poses.
 int collideShapes(const CollideInput& input, ContactManifold& manifold);
 
-// True when `cache` proves that the shapes are still farther apart than `margin`. Rotation by an angle with chord c
-// moves a point of B by at most c * radius_b.
+// True when `cache` proves that the shapes are still farther apart than `margin`. Rotation by an angle with
+// chord c moves a point of B by at most c * radius_b.
 bool provablyApart(const PairCache& cache, const Transform& body_b_in_a, float margin);
 
 // The pair functions: what every entry of the table takes. In this record A is the first shape of the entry.
@@ -47,12 +49,12 @@ struct LocalPair {
   const Geometry& b;
   const RelativePose& b_in_a;  // shape frames
   float margin;
-  uint32_t hint;        // in: features of the last manifold or zero; a pair function may ignore it
-  Vec3 axis;            // in: a guess of the axis from A to B, frame of A, or zero
+  uint32_t hint;  // in: features of the last manifold or zero; a pair function may ignore it
+  Vec3 axis;      // in: a guess of the axis from A to B, frame of A, or zero
 };
 
 struct LocalResult {
-  LocalManifold manifold;     // frame of A
+  LocalManifold manifold;                  // frame of A
   float separation = PairCache::kUnknown;  // m, when there is no point: a proven gap along manifold.normal
   uint32_t hint = 0;
 };

@@ -1,5 +1,6 @@
-// With c the centre and r the inner radius of a polytope, its support along n is at least n . c + r. The separation along
-// an axis that belongs to one face or edge of A is therefore at most its height under the centre of B, less r of B.
+// With c the centre and r the inner radius of a polytope, its support along n is at least n . c + r. The
+// separation along an axis that belongs to one face or edge of A is therefore at most its height under the
+// centre of B, less r of B.
 #include "pfx/base_level/collision/polytope_sat.h"
 
 #include <algorithm>
@@ -19,13 +20,19 @@ struct EdgeArc {
   uint16_t index;
 };
 
-float lowest(const Polytope& p, const Vec3& n) {
-  float reach = n.dot(p.vertices[0]);
-  for (size_t i = 1; i < p.vertices.size(); ++i) reach = std::min(reach, n.dot(p.vertices[i]));
-  return reach;
+float lowest(const Polytope& p, const Vec3& n) { return n.dot(p.vertices[farthestVertex(p, -n)]); }
+
+// False when no unit vector n on the arc between the normals of two faces can have n . g > needed, given
+// their products h0 and h1 with g. Such an n is a sum of the two normals with weights that add up to at most
+// 1 / cos(half the arc).
+bool arcCanReach(const Vec3& n0, const Vec3& n1, float h0, float h1, float needed) {
+  const float h = std::max(h0, h1);
+  if (needed <= 0.0f) return true;
+  return h > 0.0f && 2.0f * h * h > needed * needed * (1.0f + n0.dot(n1)) * 0.999f;
 }
 
-// Largest n . g over the unit vectors on the arc from n0 to n1 (at most half a turn), all of them across `direction`.
+// Largest n . g over the unit vectors on the arc from n0 to n1 (at most half a turn), all of them across
+// `direction`.
 float largestOnArc(const Vec3& n0, const Vec3& n1, const Vec3& direction, const Vec3& g) {
   const float h0 = n0.dot(g), h1 = n1.dot(g), cosine = n0.dot(n1);
   const float along = direction.dot(g);
@@ -42,8 +49,14 @@ EdgeArc arcOfA(const Polytope& a, uint16_t e) {
 
 EdgeArc arcOfB(const Polytope& b, const RelativePose& pose, uint16_t e) {
   const PolytopeEdge& edge = b.edges[e];
-  const Vec3 n0 = pose.rotation * -b.planes[edge.left].normal, n1 = pose.rotation * -b.planes[edge.right].normal;
-  return {n0, n1, n1.cross(n0), pose.toA(b.vertices[edge.v0]), pose.rotation * (b.vertices[edge.v1] - b.vertices[edge.v0]), e};
+  const Vec3 n0 = pose.rotation * -b.planes[edge.left].normal,
+             n1 = pose.rotation * -b.planes[edge.right].normal;
+  return {n0,
+          n1,
+          n1.cross(n0),
+          pose.toA(b.vertices[edge.v0]),
+          pose.rotation * (b.vertices[edge.v1] - b.vertices[edge.v0]),
+          e};
 }
 
 bool arcsCross(const EdgeArc& a, const EdgeArc& b) {
@@ -64,7 +77,8 @@ void tryEdges(const EdgeArc& a, const EdgeArc& b, PolytopeAxis& best) {
   if (separation > best.separation) best = {PolytopeAxis::Kind::Edges, a.index, b.index, separation, n};
 }
 
-void searchFaces(const Polytope& a, const Polytope& b, const RelativePose& pose, float preference, PolytopeAxis& best) {
+void searchFaces(const Polytope& a, const Polytope& b, const RelativePose& pose, float preference,
+                 PolytopeAxis& best) {
   const Vec3 center_b = pose.toA(b.center), center_a = pose.toB(a.center);
   for (uint16_t f = 0; f < a.faces.size(); ++f) {
     const Plane& p = a.planes[f];
@@ -81,17 +95,27 @@ void searchFaces(const Polytope& a, const Polytope& b, const RelativePose& pose,
   }
 }
 
+// An edge is left out when the height of the other centre over its two faces is too small, and then when it
+// is too small over all axes of the edge.
+bool edgeCanWin(const Polytope& p, uint16_t e, const Vec3& other_center, float needed) {
+  const Plane &p0 = p.planes[p.edges[e].left], &p1 = p.planes[p.edges[e].right];
+  const float h0 = p0.normal.dot(other_center) - p0.offset, h1 = p1.normal.dot(other_center) - p1.offset;
+  return arcCanReach(p0.normal, p1.normal, h0, h1, needed);
+}
+
 void searchEdges(const Polytope& a, const Polytope& b, const RelativePose& pose, PolytopeAxis& best) {
-  const Vec3 center_b = pose.toA(b.center);
+  const Vec3 center_b = pose.toA(b.center), center_a = pose.toB(a.center);
   EdgeArc chunk[kChunk];
   for (uint32_t next = 0; next < b.edges.size();) {
     int count = 0;
     for (; next < b.edges.size() && count < kChunk; ++next) {
+      if (!edgeCanWin(b, uint16_t(next), center_a, best.separation + a.inner_radius)) continue;
       const EdgeArc arc = arcOfB(b, pose, uint16_t(next));
       const float bound = largestOnArc(arc.n0, arc.n1, arc.direction, arc.vertex - a.center) - a.inner_radius;
       if (bound > best.separation) chunk[count++] = arc;
     }
     for (uint32_t e = 0; e < a.edges.size() && count > 0; ++e) {
+      if (!edgeCanWin(a, uint16_t(e), center_b, best.separation + b.inner_radius)) continue;
       const EdgeArc arc = arcOfA(a, uint16_t(e));
       const float bound = largestOnArc(arc.n0, arc.n1, arc.direction, center_b - arc.vertex) - b.inner_radius;
       if (bound <= best.separation) continue;
@@ -115,14 +139,28 @@ PolytopeAxis faceAxisB(const Polytope& a, const Polytope& b, const RelativePose&
   return {PolytopeAxis::Kind::FaceB, 0, face, separation, -n};
 }
 
-PolytopeAxis leastOverlap(const Polytope& a, const Polytope& b, const RelativePose& pose, const PolytopeAxis& start) {
+PolytopeAxis edgesAxis(const Polytope& a, const Polytope& b, const RelativePose& pose, uint16_t edge_a,
+                       uint16_t edge_b) {
+  PolytopeAxis axis;
+  tryEdges(arcOfA(a, edge_a), arcOfB(b, pose, edge_b), axis);
+  return axis;
+}
+
+PolytopeAxis leastOverlap(const Polytope& a, const Polytope& b, const RelativePose& pose,
+                          const PolytopeAxis& start) {
   const float preference = kPreference * (a.inner_radius + b.inner_radius);
-  PolytopeAxis face = start.kind == PolytopeAxis::Kind::Edges ? PolytopeAxis{} : start;
+  PolytopeAxis face = start;
+  if (start.kind == PolytopeAxis::Kind::Edges) {
+    face = {};
+    face.separation = start.separation - preference;  // what a face needs to be chosen before these edges
+  }
   searchFaces(a, b, pose, preference, face);
   PolytopeAxis edges = face;
   edges.separation += preference;
+  const bool start_wins = face.kind == PolytopeAxis::Kind::None;
+  if (start_wins) edges = start;
   searchEdges(a, b, pose, edges);
-  return edges.kind == PolytopeAxis::Kind::Edges ? edges : face;
+  return start_wins || edges.kind == PolytopeAxis::Kind::Edges ? edges : face;
 }
 
 }  // namespace pfx

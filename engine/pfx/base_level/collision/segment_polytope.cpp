@@ -1,5 +1,5 @@
-// Outside, the normal comes from the closest points; with the segment inside, from the axis of least overlap. A segment
-// along a face or an edge touches at both ends of the common stretch.
+// Outside, the normal comes from the closest points; with the segment inside, from the axis of least overlap.
+// A segment along a face or an edge touches at both ends of the common stretch.
 #include "pfx/base_level/collision/segment_polytope.h"
 
 #include <algorithm>
@@ -20,8 +20,8 @@ struct Axis {
   float separation = -1e30f;
 };
 
-// Axis of least overlap over face normals and cross products of edges with the segment. Every candidate is measured with
-// the true support of the polytope, so each one is a valid axis.
+// Axis of least overlap over face normals and cross products of edges with the segment. Every candidate is
+// measured with the true support of the polytope, so each one is a valid axis.
 Axis leastOverlap(const Polytope& polytope, const ConvexCore& core, const Segment& segment) {
   Axis best;
   for (const Plane& plane : polytope.planes) {
@@ -32,7 +32,8 @@ Axis leastOverlap(const Polytope& polytope, const ConvexCore& core, const Segmen
   for (const PolytopeEdge& edge : polytope.edges) {
     Vec3 n = (polytope.vertices[edge.v1] - polytope.vertices[edge.v0]).cross(along);
     const float length = n.norm();
-    if (!(length > 1e-4f * along.norm() * (polytope.vertices[edge.v1] - polytope.vertices[edge.v0]).norm())) continue;
+    if (!(length > 1e-4f * along.norm() * (polytope.vertices[edge.v1] - polytope.vertices[edge.v0]).norm()))
+      continue;
     n /= length;
     if (n.dot(polytope.vertices[edge.v0] - polytope.center) < 0.0f) n = -n;
     const float s = std::min(n.dot(segment.p0), n.dot(segment.p1)) - n.dot(core.support(n).point);
@@ -51,7 +52,8 @@ Stretch clipByFace(const Polytope& polytope, uint32_t face, const Segment& segme
   Stretch s;
   const auto loop = polytope.face(face);
   for (size_t i = 0; i < loop.size(); ++i) {
-    const Vec3 &r0 = polytope.vertices[loop[i]], &r1 = polytope.vertices[loop[i + 1 < loop.size() ? i + 1 : 0]];
+    const Vec3 &r0 = polytope.vertices[loop[i]],
+               &r1 = polytope.vertices[loop[i + 1 < loop.size() ? i + 1 : 0]];
     const Vec3 outward = (r1 - r0).cross(n);
     const float d0 = outward.dot(segment.p0 - r0), d1 = outward.dot(segment.p1 - r0);
     if (d0 > 0.0f && d1 > 0.0f) return {1.0f, 0.0f};
@@ -63,8 +65,8 @@ Stretch clipByFace(const Polytope& polytope, uint32_t face, const Segment& segme
 
 }  // namespace
 
-void collidePolytopeCapsule(const Polytope& polytope, const ConvexCore& core, const Capsule& capsule, const LocalPair& pair,
-                            LocalResult& result) {
+void collidePolytopeCapsule(const Polytope& polytope, const ConvexCore& core, const Capsule& capsule,
+                            const LocalPair& pair, LocalResult& result) {
   const float radius = capsule.radius;
   const Vec3 half = capsule.half_length * pair.b_in_a.rotation.col(0);
   const Segment segment{pair.b_in_a.position - half, pair.b_in_a.position + half};
@@ -105,9 +107,13 @@ void collidePolytopeCapsule(const Polytope& polytope, const ConvexCore& core, co
   }
   const float near = 1e-3f * (capsule.half_length + radius);
   bool covered = false;
-  for (int i = 0; i < count; ++i) covered |= (candidates[i].point_b - (on_segment - radius * m.normal)).norm() < near;
-  const bool deeper = count == 0 || core_distance - radius < std::min(candidates[0].distance, candidates[count - 1].distance) - 0.01f * near;
-  if (!covered && deeper) candidates[count++] = {on_polytope, on_segment - radius * m.normal, core_distance - radius, 1};
+  for (int i = 0; i < count; ++i)
+    covered |= (candidates[i].point_b - (on_segment - radius * m.normal)).norm() < near;
+  const bool deeper =
+      count == 0 || core_distance - radius <
+                        std::min(candidates[0].distance, candidates[count - 1].distance) - 0.01f * near;
+  if (!covered && deeper)
+    candidates[count++] = {on_polytope, on_segment - radius * m.normal, core_distance - radius, 1};
   reduceContacts({candidates, size_t(count)}, m);
 }
 

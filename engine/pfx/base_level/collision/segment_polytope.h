@@ -8,7 +8,7 @@
 namespace pfx {
 
 // `core` is the support mapping of the same polytope, which is the first shape of the pair.
-void collidePolytopeCapsule(const Polytope& polytope, const ConvexCore& core, const Capsule& capsule, const LocalPair& pair,
-                            LocalResult& result);
+void collidePolytopeCapsule(const Polytope& polytope, const ConvexCore& core, const Capsule& capsule,
+                            const LocalPair& pair, LocalResult& result);
 
 }  // namespace pfx

@@ -7,8 +7,10 @@
 namespace pfx {
 namespace {
 
-// One point between the surface of a rounded core B at `q` (closest core point, frame of A) and a sphere A at the origin.
-void roundedPoint(float radius_a, const Vec3& q, float radius_b, float margin, const Vec3& fallback, LocalResult& result) {
+// One point between the surface of a rounded core B at `q` (closest core point, frame of A) and a sphere A at
+// the origin.
+void roundedPoint(float radius_a, const Vec3& q, float radius_b, float margin, const Vec3& fallback,
+                  LocalResult& result) {
   const float length = q.norm();
   const float distance = length - radius_a - radius_b;
   LocalManifold& m = result.manifold;
@@ -43,7 +45,8 @@ void collideSphereBox(const LocalPair& pair, LocalResult& result) {
   const Vec3 q = c.cwiseMax(-h).cwiseMin(h);
   const float outside = (c - q).norm();
   LocalManifold& m = result.manifold;
-  // A centre closer to the surface than its rounding counts as inside, where the normal is that of the nearest face.
+  // A centre closer to the surface than its rounding counts as inside, where the normal is that of the
+  // nearest face.
   if (outside > 1e-6f * h.maxCoeff()) {
     m.normal = pair.b_in_a.rotation * ((q - c) / outside);
     const float distance = outside - radius;

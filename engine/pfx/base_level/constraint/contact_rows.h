@@ -40,6 +40,9 @@ struct alignas(32) ContactRows {
   Lane tangent[3];           // unit; the second tangent is normal x tangent
   Lane center_a[3];          // m, mean of the arms: friction acts at center + spread * (arm - center)
   Lane center_b[3];
+  // 1: the contact point turns with the body; 0: it stays below, as on a ball that rolls.
+  Lane turns_a;
+  Lane turns_b;
   Lane friction;
   Lane restitution;
   Lane bias_rate;

@@ -94,12 +94,16 @@ void traceIslands(const LargeMesh& mesh, const MeshRayView& view, const LocalRay
   }
 }
 
+bool hasAvx2() {
+  static const bool has = __builtin_cpu_supports("avx2");
+  return has;
+}
+
 void traceHierarchy(const LargeMesh& mesh, const MeshRayView& view, const MeshRay& ray, MeshRayHit& hit) {
-  static const bool has_avx2 = __builtin_cpu_supports("avx2");
   if (isQuantized(mesh.type)) {
-    (has_avx2 ? traceQuantizedAvx2 : traceQuantizedSse2)(view, ray, hit);
+    (hasAvx2() ? traceQuantizedAvx2 : traceQuantizedSse2)(view, ray, hit);
   } else {
-    (has_avx2 ? traceExpandedAvx2 : traceExpandedSse2)(view, ray, hit);
+    (hasAvx2() ? traceExpandedAvx2 : traceExpandedSse2)(view, ray, hit);
   }
 }
 
@@ -159,6 +163,39 @@ ShapeHit castRay(const LocalRay& ray, const LargeMesh& mesh) {
   }
   if (hit.facet == kNoFacet) return {};
   return describe(mesh, ray, a.range.first + hit.t * (a.range.last - a.range.first), hit.facet);
+}
+
+void castRays(std::span<const LocalRay> rays, const LargeMesh& mesh, std::span<ShapeHit> hits) {
+  const size_t n = std::min(rays.size(), hits.size());
+  if (!hasBvh(mesh.type)) {
+    for (size_t i = 0; i < n; ++i) hits[i] = castRay(rays[i], mesh);
+    return;
+  }
+  const MeshRayView view = viewOf(mesh);
+  const auto trace = isQuantized(mesh.type) ? (hasAvx2() ? traceManyQuantizedAvx2 : traceManyQuantizedSse2)
+                                            : (hasAvx2() ? traceManyExpandedAvx2 : traceManyExpandedSse2);
+  size_t origin[kMaxTogether];
+  Range ranges[kMaxTogether];
+  MeshRay prepared[kMaxTogether];
+  MeshRayHit found[kMaxTogether];
+  for (size_t next = 0; next < n;) {
+    int count = 0;
+    for (; next < n && count < kMaxTogether; ++next) {
+      hits[next] = {};
+      const Approach a = approach(rays[next], mesh);
+      if (a.range.first > a.range.last) continue;
+      origin[count] = next;
+      ranges[count] = a.range;
+      prepared[count] = prepare(rays[next], a.range, a.reach);
+      found[count++] = {};
+    }
+    trace(view, prepared, found, count);
+    for (int i = 0; i < count; ++i) {
+      if (found[i].facet == kNoFacet) continue;
+      const double t = ranges[i].first + found[i].t * (ranges[i].last - ranges[i].first);
+      hits[origin[i]] = describe(mesh, rays[origin[i]], t, found[i].facet);
+    }
+  }
 }
 
 }  // namespace pfx

@@ -47,6 +47,13 @@ void traceQuantizedSse2(const MeshRayView& mesh, const MeshRay& ray, MeshRayHit&
 void traceExpandedAvx2(const MeshRayView& mesh, const MeshRay& ray, MeshRayHit& hit);
 void traceQuantizedAvx2(const MeshRayView& mesh, const MeshRay& ray, MeshRayHit& hit);
 
+// The same for several rays at once, at most kMaxTogether.
+inline constexpr int kMaxTogether = 16;
+void traceManyExpandedSse2(const MeshRayView& mesh, const MeshRay* rays, MeshRayHit* hits, int count);
+void traceManyQuantizedSse2(const MeshRayView& mesh, const MeshRay* rays, MeshRayHit* hits, int count);
+void traceManyExpandedAvx2(const MeshRayView& mesh, const MeshRay* rays, MeshRayHit* hits, int count);
+void traceManyQuantizedAvx2(const MeshRayView& mesh, const MeshRay* rays, MeshRayHit* hits, int count);
+
 // The hit of one of the kernels above, from the same preparation as castRay(); for tests and benchmarks.
 using MeshRayTrace = void (*)(const MeshRayView&, const MeshRay&, MeshRayHit&);
 MeshRayHit traceWith(MeshRayTrace trace, const LargeMesh& mesh, const LocalRay& ray);

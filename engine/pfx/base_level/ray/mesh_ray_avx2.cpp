@@ -39,5 +39,11 @@ void traceExpandedAvx2(const MeshRayView& mesh, const MeshRay& ray, MeshRayHit& 
 void traceQuantizedAvx2(const MeshRayView& mesh, const MeshRay& ray, MeshRayHit& hit) {
   MeshRayKernel<Avx2, true>::trace(mesh, ray, hit);
 }
+void traceManyExpandedAvx2(const MeshRayView& mesh, const MeshRay* rays, MeshRayHit* hits, int count) {
+  MeshRayKernel<Avx2, false>::traceMany(mesh, rays, hits, count);
+}
+void traceManyQuantizedAvx2(const MeshRayView& mesh, const MeshRay* rays, MeshRayHit* hits, int count) {
+  MeshRayKernel<Avx2, true>::traceMany(mesh, rays, hits, count);
+}
 
 }  // namespace pfx

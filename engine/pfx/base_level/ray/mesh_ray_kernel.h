@@ -149,13 +149,6 @@ struct MeshRayKernel {
     }
   }
 
-  struct Entry {
-    MeshChild child;
-    float t;
-  };
-  // Eight-wide nodes of a tree at most 64 deep leave at most 7 siblings a level.
-  static constexpr int kStack = 7 * 64 + 8;
-
   // Memory is slower than everything else here: ask for a child when it is found, not when it is opened.
   template <class Node>
   static void prefetch(const MeshRayView& m, const Node* nodes, MeshChild child) {
@@ -173,32 +166,67 @@ struct MeshRayKernel {
   }
   static void prefetchLine(const void* p) { _mm_prefetch(static_cast<const char*>(p), _MM_HINT_T0); }
 
-  static void trace(const MeshRayView& m, const MeshRay& ray, MeshRayHit& hit) {
+  struct Entry {
+    MeshChild child;
+    float t;
+  };
+  // Eight-wide nodes of a tree at most 64 deep leave at most 7 siblings a level.
+  static constexpr int kStack = 7 * 64 + 8;
+
+  // A ray half way.
+  struct Journey {
+    int size = 1;
+    Entry stack[kStack];
+    Journey() { stack[0] = {0, 0.0f}; }
+  };
+
+  // Opens the nearest node, or tests the nearest leaf, that the ray still has before it.
+  static void step(const MeshRayView& m, const MeshRay& ray, Journey& journey, MeshRayHit& hit) {
     using Node = typename Isa::template NodeType<quantized>;
     const auto* nodes = reinterpret_cast<const Node*>(m.nodes);
-    Entry stack[kStack];
-    int size = 0;
-    stack[size++] = {0, 0.0f};
-    while (size > 0) {
-      const Entry entry = stack[--size];
-      if (entry.t > hit.t) continue;
-      if (isLeaf(entry.child)) {
-        leaf(m, ray, leafFirst(entry.child), leafCount(entry.child), hit);
-        continue;
+    const Entry entry = journey.stack[--journey.size];
+    if (entry.t > hit.t) return;
+    if (isLeaf(entry.child)) {
+      leaf(m, ray, leafFirst(entry.child), leafCount(entry.child), hit);
+      return;
+    }
+    const Node& node = nodes[entry.child];
+    alignas(32) float t_near[8];
+    unsigned mask = Isa::testBoxes(node.bounds, m, ray, hit.t, t_near);
+    // The nearest child ends up on top of the stack.
+    const int bottom = journey.size;
+    for (; mask != 0; mask &= mask - 1) {
+      const int i = __builtin_ctz(mask);
+      const Entry child = {node.child[i], t_near[i]};
+      if (child.child == kNoChild) break;
+      prefetch(m, nodes, child.child);
+      int place = journey.size++;
+      for (; place > bottom && journey.stack[place - 1].t < child.t; --place) {
+        journey.stack[place] = journey.stack[place - 1];
       }
-      const Node& node = nodes[entry.child];
-      alignas(32) float t_near[8];
-      unsigned mask = Isa::testBoxes(node.bounds, m, ray, hit.t, t_near);
-      // The nearest child ends up on top of the stack.
-      const int bottom = size;
-      for (; mask != 0; mask &= mask - 1) {
-        const int i = __builtin_ctz(mask);
-        const Entry child = {node.child[i], t_near[i]};
-        if (child.child == kNoChild) break;
-        prefetch(m, nodes, child.child);
-        int place = size++;
-        for (; place > bottom && stack[place - 1].t < child.t; --place) stack[place] = stack[place - 1];
-        stack[place] = child;
+      journey.stack[place] = child;
+    }
+  }
+
+  static void trace(const MeshRayView& m, const MeshRay& ray, MeshRayHit& hit) {
+    Journey journey;
+    while (journey.size > 0) step(m, ray, journey, hit);
+  }
+
+  // Several rays in turn, one step each, so that each waits for memory while the others compute.
+  static void traceMany(const MeshRayView& m, const MeshRay* rays, MeshRayHit* hits, int count) {
+    Journey journeys[kMaxTogether];
+    int active[kMaxTogether];
+    for (int i = 0; i < count; ++i) active[i] = i;
+    while (count > 0) {
+      for (int k = 0; k < count;) {
+        const int i = active[k];
+        step(m, rays[i], journeys[i], hits[i]);
+        if (journeys[i].size > 0) {
+          ++k;
+        } else {
+          active[k] = active[--count];
+        }
       }
     }
   }

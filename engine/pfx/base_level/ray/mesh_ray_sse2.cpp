@@ -43,6 +43,12 @@ void traceExpandedSse2(const MeshRayView& mesh, const MeshRay& ray, MeshRayHit& 
 void traceQuantizedSse2(const MeshRayView& mesh, const MeshRay& ray, MeshRayHit& hit) {
   MeshRayKernel<Sse2, true>::trace(mesh, ray, hit);
 }
+void traceManyExpandedSse2(const MeshRayView& mesh, const MeshRay* rays, MeshRayHit* hits, int count) {
+  MeshRayKernel<Sse2, false>::traceMany(mesh, rays, hits, count);
+}
+void traceManyQuantizedSse2(const MeshRayView& mesh, const MeshRay* rays, MeshRayHit* hits, int count) {
+  MeshRayKernel<Sse2, true>::traceMany(mesh, rays, hits, count);
+}
 
 namespace {
 

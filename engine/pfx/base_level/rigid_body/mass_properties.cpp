@@ -14,8 +14,8 @@ using Mat3d = Eigen::Matrix3d;
 
 struct Sum {
   double mass = 0.0;
-  Vec3d moment = Vec3d::Zero();    // mass * centre
-  Mat3d inertia = Mat3d::Zero();   // about the origin of the frame
+  Vec3d moment = Vec3d::Zero();   // mass * centre
+  Mat3d inertia = Mat3d::Zero();  // about the origin of the frame
 };
 
 Mat3d pointInertia(const Vec3d& p) { return p.squaredNorm() * Mat3d::Identity() - p * p.transpose(); }
@@ -88,7 +88,9 @@ MassProperties massProperties(std::span<const Shape> shapes, float density) {
   return finish(sum);
 }
 
-MassProperties massProperties(const Shape& shape, float density) { return massProperties(std::span(&shape, 1), density); }
+MassProperties massProperties(const Shape& shape, float density) {
+  return massProperties(std::span(&shape, 1), density);
+}
 
 MassProperties massProperties(const Geometry& geometry, float density) {
   return massProperties(Shape{geometry, Transform{}}, density);

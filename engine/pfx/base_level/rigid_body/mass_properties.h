@@ -1,5 +1,5 @@
-// Mass, centre of mass and inertia of shapes: closed forms for primitives, exact integrals for meshes, sums for
-// compounds.
+// Mass, centre of mass and inertia of shapes: closed forms for primitives, exact integrals for meshes, sums
+// for compounds.
 #pragma once
 
 #include <optional>
@@ -10,13 +10,15 @@
 namespace pfx {
 
 struct MassProperties {
-  float mass = 0.0f;                // kg
-  Vec3 center = Vec3::Zero();       // m, centre of mass
-  Mat3 inertia = Mat3::Zero();      // kg m^2, about the centre of mass, in the axes of the frame the shape is given in
+  float mass = 0.0f;           // kg
+  Vec3 center = Vec3::Zero();  // m, centre of mass
+  Mat3 inertia =
+      Mat3::Zero();  // kg m^2, about the centre of mass, in the axes of the frame the shape is given in
 };
 
-// Of one geometry in its own frame, filled with `density` kg/m^3. Overlapping parts of a compound count twice. A large
-// mesh is a surface: its mass is zero. Formulas: any table of moments of inertia; meshes by exact integration.
+// Of one geometry in its own frame, filled with `density` kg/m^3. Overlapping parts of a compound count
+// twice. A large mesh is a surface: its mass is zero. Formulas: any table of moments of inertia; meshes by
+// exact integration.
 MassProperties massProperties(const Geometry& geometry, float density);
 
 // Of one shape in the body frame.
@@ -25,8 +27,8 @@ MassProperties massProperties(const Shape& shape, float density);
 // Of all shapes together, in the body frame (parallel-axis theorem, summed in double precision).
 MassProperties massProperties(std::span<const Shape> shapes, float density);
 
-// The same distribution of matter with another total mass (kg). Nothing when the old mass is zero or the new one is not
-// positive and finite.
+// The same distribution of matter with another total mass (kg). Nothing when the old mass is zero or the new
+// one is not positive and finite.
 std::optional<MassProperties> scaledToMass(const MassProperties& properties, float mass);
 
 }  // namespace pfx

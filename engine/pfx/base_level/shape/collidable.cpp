@@ -13,11 +13,16 @@ bool isSize(float x) { return std::isfinite(x) && x >= 0.0f; }
 
 Error check(const Sphere& s) { return isSize(s.radius) ? Error::Ok : Error::InvalidValue; }
 Error check(const Box& b) {
-  return isSize(b.half_extent.x()) && isSize(b.half_extent.y()) && isSize(b.half_extent.z()) ? Error::Ok
-                                                                                               : Error::InvalidValue;
+  return isSize(b.half_extent.x()) && isSize(b.half_extent.y()) && isSize(b.half_extent.z())
+             ? Error::Ok
+             : Error::InvalidValue;
 }
-Error check(const Capsule& c) { return isSize(c.half_length) && isSize(c.radius) ? Error::Ok : Error::InvalidValue; }
-Error check(const Cylinder& c) { return isSize(c.half_length) && isSize(c.radius) ? Error::Ok : Error::InvalidValue; }
+Error check(const Capsule& c) {
+  return isSize(c.half_length) && isSize(c.radius) ? Error::Ok : Error::InvalidValue;
+}
+Error check(const Cylinder& c) {
+  return isSize(c.half_length) && isSize(c.radius) ? Error::Ok : Error::InvalidValue;
+}
 Error check(const ConvexMesh* mesh) { return mesh != nullptr ? Error::Ok : Error::NullPointer; }
 Error check(const LargeMesh* mesh) { return mesh != nullptr ? Error::Ok : Error::NullPointer; }
 
@@ -31,7 +36,9 @@ Error check(const Shape& shape) {
 Aabb bounds(const Sphere& s, const Transform& pose) {
   return Aabb{pose.position, pose.position}.grown(s.radius);
 }
-Aabb bounds(const Box& b, const Transform& pose) { return transformedAabb(pose, Vec3::Zero(), b.half_extent); }
+Aabb bounds(const Box& b, const Transform& pose) {
+  return transformedAabb(pose, Vec3::Zero(), b.half_extent);
+}
 Aabb bounds(const Capsule& c, const Transform& pose) {
   return transformedAabb(pose, Vec3::Zero(), Vec3(c.half_length, 0.0f, 0.0f)).grown(c.radius);
 }

@@ -20,8 +20,8 @@ struct Collidable {
 
   std::span<const Shape> shapes() const { return external.empty() ? std::span(&inline_shape, 1) : external; }
 
-  // Computes the local bounds. Error::InvalidValue for a negative or non-finite size, Error::NullPointer for a
-  // missing mesh.
+  // Computes the local bounds. Error::InvalidValue for a negative or non-finite size, Error::NullPointer for
+  // a missing mesh.
   Error finish();
 };
 

@@ -1,5 +1,5 @@
-// From hull triangles to a convex mesh: coplanar triangles are merged into polygons, vertices that only two faces share
-// vanish, then edges, radii and exact volume integrals follow.
+// From hull triangles to a convex mesh: coplanar triangles are merged into polygons, vertices that only two
+// faces share vanish, then edges, radii and exact volume integrals follow.
 #include "pfx/base_level/shape/convex_hull.h"
 
 #include <algorithm>
@@ -31,12 +31,15 @@ double doubleArea(const HullTriangle& t, std::span<const Vec3d> p) {
   return (p[t.vertices[1]] - p[t.vertices[0]]).cross(p[t.vertices[2]] - p[t.vertices[0]]).norm();
 }
 
-// Gives every triangle the index of its face: flood fill from the largest triangle over neighbours in its plane.
-std::vector<int> mergeCoplanar(const std::vector<HullTriangle>& triangles, std::span<const Vec3d> points, double tolerance) {
+// Gives every triangle the index of its face: flood fill from the largest triangle over neighbours in its
+// plane.
+std::vector<int> mergeCoplanar(const std::vector<HullTriangle>& triangles, std::span<const Vec3d> points,
+                               double tolerance) {
   std::vector<int> order(triangles.size()), group(triangles.size(), -1);
   std::iota(order.begin(), order.end(), 0);
-  std::stable_sort(order.begin(), order.end(),
-                   [&](int a, int b) { return doubleArea(triangles[a], points) > doubleArea(triangles[b], points); });
+  std::stable_sort(order.begin(), order.end(), [&](int a, int b) {
+    return doubleArea(triangles[a], points) > doubleArea(triangles[b], points);
+  });
   int count = 0;
   std::vector<int> stack;
   for (int seed : order) {
@@ -70,7 +73,8 @@ std::vector<Loop> boundaries(const std::vector<HullTriangle>& triangles, const s
   for (size_t t = 0; t < triangles.size(); ++t) {
     for (int e = 0; e < 3; ++e) {
       if (group[triangles[t].neighbors[e]] == group[t]) continue;
-      const bool fresh = next[group[t]].emplace(triangles[t].vertices[e], triangles[t].vertices[(e + 1) % 3]).second;
+      const bool fresh =
+          next[group[t]].emplace(triangles[t].vertices[e], triangles[t].vertices[(e + 1) % 3]).second;
       if (!fresh) return {};
     }
   }
@@ -124,7 +128,8 @@ bool buildEdges(ConvexMesh& mesh) {
   for (size_t f = 0; f < mesh.faces.size(); ++f) {
     const PolytopeFace& face = mesh.faces[f];
     for (uint32_t i = 0; i < face.count; ++i) {
-      const int v = mesh.face_vertices[face.first + i], w = mesh.face_vertices[face.first + (i + 1) % face.count];
+      const int v = mesh.face_vertices[face.first + i],
+                w = mesh.face_vertices[face.first + (i + 1) % face.count];
       if (!half.emplace(std::pair(v, w), uint16_t(f)).second) return false;
     }
   }
@@ -138,8 +143,9 @@ bool buildEdges(ConvexMesh& mesh) {
   return mesh.vertices.size() + mesh.faces.size() == mesh.edges.size() + 2;
 }
 
-// Exact integrals over the tetrahedra between an inner point and the triangles of the faces. Source: F. Tonon, Explicit
-// exact formulas for the 3-D tetrahedron inertia tensor, J. Math. Stat. 1(1), 2005 (covariance form).
+// Exact integrals over the tetrahedra between an inner point and the triangles of the faces. Source: F.
+// Tonon, Explicit exact formulas for the 3-D tetrahedron inertia tensor, J. Math. Stat. 1(1), 2005
+// (covariance form).
 void integrateVolume(ConvexMesh& mesh) {
   Vec3d origin = Vec3d::Zero();
   for (const Vec3& v : mesh.vertices) origin += v.cast<double>();
@@ -156,7 +162,8 @@ void integrateVolume(ConvexMesh& mesh) {
       const double six_volume = a.dot(b.cross(c));
       volume += six_volume / 6.0;
       moment += six_volume / 24.0 * sum;
-      covariance += six_volume / 120.0 * (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
+      covariance += six_volume / 120.0 *
+                    (a * a.transpose() + b * b.transpose() + c * c.transpose() + sum * sum.transpose());
     }
   }
   const Vec3d center = moment / volume;
@@ -175,7 +182,8 @@ void measure(ConvexMesh& mesh) {
     mesh.outer_radius = std::max(mesh.outer_radius, v.norm());
   }
   mesh.inner_radius = mesh.outer_radius + mesh.centroid.norm();
-  for (const Plane& p : mesh.planes) mesh.inner_radius = std::min(mesh.inner_radius, p.offset - p.normal.dot(mesh.centroid));
+  for (const Plane& p : mesh.planes)
+    mesh.inner_radius = std::min(mesh.inner_radius, p.offset - p.normal.dot(mesh.centroid));
 }
 
 Error assemble(const std::vector<Loop>& loops, std::span<const Vec3d> points, ConvexMesh& mesh) {
@@ -199,6 +207,10 @@ Error assemble(const std::vector<Loop>& loops, std::span<const Vec3d> points, Co
   }
   if (!buildEdges(mesh)) return Error::Degenerate;
   measure(mesh);
+  std::vector<Vec3> normals;
+  for (const Plane& p : mesh.planes) normals.push_back(p.normal);
+  mesh.packed_vertices = packFours(mesh.vertices);
+  mesh.packed_normals = packFours(normals);
   const bool solid = std::isfinite(mesh.volume) && mesh.volume > 0.0f && mesh.inner_radius > 0.0f;
   return solid ? Error::Ok : Error::Degenerate;
 }
@@ -223,13 +235,16 @@ Error buildHull(std::span<const Vec3> points, ConvexMesh& mesh) {
     const Error error = assemble(loops, exact, mesh);
     if (error != Error::Degenerate) return error;
   }
-  return assemble(triangleLoops(*triangles), exact, mesh);  // merging failed; plain triangles are always right
+  return assemble(triangleLoops(*triangles), exact,
+                  mesh);  // merging failed; plain triangles are always right
 }
 
 double area(const ConvexMesh& mesh) {
   double sum = 0.0;
   for (const PolytopeFace& face : mesh.faces) {
-    const auto vertex = [&](uint32_t i) -> Vec3d { return mesh.vertices[mesh.face_vertices[face.first + i]].cast<double>(); };
+    const auto vertex = [&](uint32_t i) -> Vec3d {
+      return mesh.vertices[mesh.face_vertices[face.first + i]].cast<double>();
+    };
     for (uint32_t i = 1; i + 1 < face.count; ++i) {
       sum += 0.5 * (vertex(i) - vertex(0)).cross(vertex(i + 1) - vertex(0)).norm();
     }

@@ -1,4 +1,5 @@
-// Faces hold the points outside them; the farthest one replaces all faces that it can see by a cone over their horizon.
+// Faces hold the points outside them; the farthest one replaces all faces that it can see by a cone over
+// their horizon.
 #include "pfx/base_level/shape/quickhull.h"
 
 #include <algorithm>
@@ -17,8 +18,8 @@ struct Face {
 };
 
 struct HorizonEdge {
-  int from, to;   // runs as in the face that goes away
-  int neighbor;   // the face that stays
+  int from, to;  // runs as in the face that goes away
+  int neighbor;  // the face that stays
 };
 
 class Builder {
@@ -136,12 +137,14 @@ void Builder::findVisible(int eye, int start) {
   for (int f : visible_) {
     const HullTriangle& t = faces_[f].t;
     for (int e = 0; e < 3; ++e) {
-      if (!is_visible_[t.neighbors[e]]) horizon_.push_back({t.vertices[e], t.vertices[(e + 1) % 3], t.neighbors[e]});
+      if (!is_visible_[t.neighbors[e]])
+        horizon_.push_back({t.vertices[e], t.vertices[(e + 1) % 3], t.neighbors[e]});
     }
   }
 }
 
-// Brings the horizon into the order of a loop. False when it is not one simple loop, which only rounding can cause.
+// Brings the horizon into the order of a loop. False when it is not one simple loop, which only rounding can
+// cause.
 bool Builder::orderHorizon() {
   for (size_t i = 0; i + 1 < horizon_.size(); ++i) {
     int found = 0;
@@ -164,7 +167,8 @@ void Builder::replaceVisible(int eye) {
     faces_[fresh[i]].t.neighbors = {edge.neighbor, first + (i + 1) % count, first + (i + count - 1) % count};
     HullTriangle& outer = faces_[edge.neighbor].t;
     for (int e = 0; e < 3; ++e) {
-      if (outer.vertices[e] == edge.to && outer.vertices[(e + 1) % 3] == edge.from) outer.neighbors[e] = fresh[i];
+      if (outer.vertices[e] == edge.to && outer.vertices[(e + 1) % 3] == edge.from)
+        outer.neighbors[e] = fresh[i];
     }
   }
   for (int f : visible_) {

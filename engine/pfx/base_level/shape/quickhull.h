@@ -17,9 +17,9 @@ struct HullTriangle {
   double offset;
 };
 
-// Points that lie at most `tolerance` outside the hull may be left out. Nothing when all points lie within `tolerance`
-// of one plane. Source: C. B. Barber, D. P. Dobkin, H. Huhdanpaa, The Quickhull Algorithm for Convex Hulls, ACM TOMS
-// 22(4), 1996.
+// Points that lie at most `tolerance` outside the hull may be left out. Nothing when all points lie within
+// `tolerance` of one plane. Source: C. B. Barber, D. P. Dobkin, H. Huhdanpaa, The Quickhull Algorithm for
+// Convex Hulls, ACM TOMS 22(4), 1996.
 std::optional<std::vector<HullTriangle>> quickhull(std::span<const Eigen::Vector3d> points, double tolerance);
 
 }  // namespace pfx

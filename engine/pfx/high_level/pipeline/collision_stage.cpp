@@ -12,6 +12,17 @@ void detectCollisions(World::Impl& w) {
   w.detector.detect(input, w.contacts, w.tasks);
 }
 
+namespace {
+
+// Whether the body touches others with a surface that it can roll on.
+bool isRound(const Collidable& c) {
+  if (c.shapes().size() != 1) return false;
+  const ShapeType type = c.shapes()[0].type();
+  return type == ShapeType::Sphere || type == ShapeType::Capsule || type == ShapeType::Cylinder;
+}
+
+}  // namespace
+
 void gatherConstraints(World::Impl& w) {
   for (const Pair& pair : w.pairs) {
     if (!w.solves(pair)) continue;
@@ -25,6 +36,8 @@ void gatherConstraints(World::Impl& w) {
                                .solver_b = pair.body_b,
                                .writable_a = isDynamic(a.motion_type) && !one_way_b,
                                .writable_b = isDynamic(b.motion_type) && !one_way_a,
+                               .round_a = isRound(w.store.collidables[pair.body_a]),
+                               .round_b = isRound(w.store.collidables[pair.body_b]),
                                .friction = std::sqrt(ba.friction * bb.friction),
                                .restitution = 0.5f * (ba.restitution + bb.restitution)});
     }

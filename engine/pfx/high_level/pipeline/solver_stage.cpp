@@ -78,7 +78,8 @@ void flyFree(World::Impl& w) {
 }
 
 void beginComponent(World::Impl& w, JointComponent& c, const DirectStepParams& params) {
-  for (size_t i = 0; i < c.bodies.size(); ++i) c.motions[i] = makeMotion(w, c.bodies[i], static_cast<float>(params.h));
+  for (size_t i = 0; i < c.bodies.size(); ++i)
+    c.motions[i] = makeMotion(w, c.bodies[i], static_cast<float>(params.h));
   c.direct.begin(w.store.states, w.store.bodies, c.motions, params);
 }
 

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "pfx/base_level/math/trig.h"
+#include "pfx/high_level/pipeline/stages.h"
 #include "pfx/high_level/world/world_impl.h"
 #include "pfx/util/state_hash/state_hash.h"
 
@@ -65,6 +66,7 @@ LargeMesh* World::keep(LargeMesh mesh) { return &impl_->large_meshes.emplace_bac
 BodyId World::addBody(const BodyDef& def) {
   const BodyId id = impl_->store.add(def);
   impl_->active_changed = true;
+  impl_->tree_is_current = false;
   impl_->changed_bodies.push_back(id.index);
   return id;
 }
@@ -86,6 +88,7 @@ void World::removeBody(BodyId id) {
   }
   impl_->store.remove(id.index);
   impl_->active_changed = true;
+  impl_->tree_is_current = false;
   impl_->changed_bodies.push_back(id.index);
 }
 
@@ -113,6 +116,7 @@ RigidState& World::state(BodyId id) {
   impl_->wake(id.index);
   impl_->wakeNeighbours(id.index);
   impl_->active_changed = true;
+  impl_->tree_is_current = false;
   impl_->changed_bodies.push_back(id.index);
   return impl_->store.states[id.index];
 }
@@ -175,6 +179,27 @@ JointError World::jointError(uint32_t index) const {
   const JointLink& link = impl_->joint_store.links.at(index);
   const auto pose = [&](uint32_t body) { return toDouble(impl_->store.states[body].pose()); };
   return pfx::jointError(impl_->joint_store.joints[index], pose(link.body_a), pose(link.body_b));
+}
+
+QueryScene World::Impl::queryScene() {
+  refreshActive();
+  if (!tree_is_current) stage::updateTree(*this);
+  tree_is_current = true;
+  return {.states = store.states, .collidables = store.collidables, .tree = &tree};
+}
+
+RayOutput World::castRay(const RayInput& ray) const { return pfx::castRay(ray, impl_->queryScene()); }
+
+Error World::castRays(std::span<const RayInput> rays, std::span<RayOutput> outputs) const {
+  return pfx::castRays(rays, impl_->queryScene(), outputs, &impl_->tasks);
+}
+
+ShapeCastOutput World::castShape(const ShapeCastInput& input) const {
+  return pfx::castShape(input, impl_->queryScene());
+}
+
+void World::findOverlaps(const OverlapInput& input, std::vector<uint32_t>& bodies) const {
+  pfx::findOverlaps(input, impl_->queryScene(), bodies);
 }
 
 std::span<const Pair> World::contactPairs() const { return impl_->pairs; }

@@ -14,6 +14,7 @@
 #include "pfx/base_level/shape/collidable.h"
 #include "pfx/base_level/simd_level.h"
 #include "pfx/high_level/world/joint_def.h"
+#include "pfx/low_level/ray/ray_cast.h"
 #include "pfx/low_level/solver/joint_constraint.h"
 
 namespace pfx {
@@ -114,8 +115,8 @@ class World {
   // Moves a Keyframe body: it reaches `pose` at the end of the next step of dt seconds.
   void moveKeyframe(BodyId id, const Transform& pose, float dt);
 
-  // Adds a joint between two bodies where they stand. Throws std::invalid_argument, naming the joint, when a body does
-  // not exist, both are the same, or a parameter lies outside its range.
+  // Adds a joint between two bodies where they stand. Throws std::invalid_argument, naming the joint, when a
+  // body does not exist, both are the same, or a parameter lies outside its range.
   JointId addJoint(const JointDef& def);
   void removeJoint(JointId id);
   bool isValid(JointId id) const;
@@ -134,6 +135,16 @@ class World {
 
   // Joints that broke in the last step; they are removed already.
   std::span<const JointId> brokenJoints() const;
+
+  // Queries about the bodies as they are now. The first one after a step or a change brings the tree up to
+  // date; after that any number of threads may ask at once until the next change.
+  RayOutput castRay(const RayInput& ray) const;  // nearest hit; among equals the lowest body, then shape
+  // outputs[i] = castRay(rays[i]), shared out over the workers. Error::OutOfRange for spans of different
+  // length.
+  Error castRays(std::span<const RayInput> rays, std::span<RayOutput> outputs) const;
+  ShapeCastOutput castShape(const ShapeCastInput& input) const;
+  // Appends the bodies that overlap the convex shape, ascending.
+  void findOverlaps(const OverlapInput& input, std::vector<uint32_t>& bodies) const;
 
   // Pairs whose bounds met in the last step, by key; contact_id + k (k < count) indexes manifolds().
   std::span<const Pair> contactPairs() const;

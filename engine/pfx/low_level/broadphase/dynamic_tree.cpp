@@ -219,6 +219,24 @@ void DynamicTree::remove(Location at, std::span<Location> locations) {
   }
 }
 
+void DynamicTree::setBounds(Location at, const Aabb& box) {
+  Node& node = nodes_[at >> 2];
+  setSlot(node, at & 3, box, node.child[at & 3]);
+}
+
+Aabb DynamicTree::refitNode(uint32_t index) {
+  Node& node = nodes_[index];
+  for (uint32_t slot = 0; slot < node.count; ++slot) {
+    const Child child = node.child[slot];
+    if (!(child & kLeaf)) setSlot(node, slot, refitNode(child), child);
+  }
+  return nodeBounds(node);
+}
+
+void DynamicTree::refit() {
+  if (root_ != kNoNode) refitNode(root_);
+}
+
 uint32_t DynamicTree::height() const {
   if (root_ == kNoNode) return 0;
   struct Entry {

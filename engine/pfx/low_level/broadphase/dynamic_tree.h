@@ -50,6 +50,12 @@ class DynamicTree {
   void remove(Location at, std::span<Location> locations);
   void clear();
 
+  // Cheaper than removal and insertion when many leaves move by little: setBounds for each of them, then
+  // refit once, before any query. The tree keeps its shape, which fits less and less well until it is built
+  // anew.
+  void setBounds(Location at, const Aabb& box);
+  void refit();
+
   uint32_t size() const { return num_leaves_; }
   uint32_t height() const;                     // nodes on the longest way down; at most maxHeight(2 * size())
   static uint32_t maxHeight(uint32_t leaves);  // about 1.5 log4(leaves) + 5
@@ -99,6 +105,7 @@ class DynamicTree {
 
   uint32_t newNode(Location parent);
   void attach(Location at, const Aabb& box, Child child, std::span<Location> locations);
+  Aabb refitNode(uint32_t node);
   void shrinkUpwards(uint32_t node);
   void collapse(uint32_t node, std::span<Location> locations);
   uint32_t descend(const Aabb& box, std::span<Location> locations, uint32_t* depth);

@@ -29,6 +29,13 @@ uint32_t removeOutside(const WorldBox& world, std::span<BroadphaseProxy> proxies
 }  // namespace
 
 Aabb bodyAabb(const RigidState& state, const Collidable& collidable) {
+  // Tight bounds of a primitive cost little; a turned box round a sphere is not tight. A collidable that was
+  // not finished has no extent, whatever its shape.
+  const Shape& shape = collidable.inline_shape;
+  const bool is_primitive = shape.geometry.index() <= static_cast<std::size_t>(ShapeType::Cylinder);
+  if (collidable.external.empty() && is_primitive && !collidable.half_extent.isZero(0.0f)) {
+    return shapeAabb(shape.geometry, state.pose() * shape.offset);
+  }
   return transformedAabb(state.pose(), collidable.center, collidable.half_extent);
 }
 

@@ -11,12 +11,12 @@ namespace {
 constexpr uint32_t kUnmoved = 0xffffffffu;
 constexpr uint32_t kMaxBodies = 1u << 31;
 constexpr uint32_t kGrain = 512;     // proxies a block
-constexpr float kSizeMargin = 0.1f;  // of the smallest half extent, on every side of a leaf
-constexpr float kStepsAhead = 4.0f;  // by which a leaf reaches ahead of its proxy
+constexpr float kSizeMargin = 0.2f;  // of the smallest half extent, on every side of a leaf
+constexpr float kStepsAhead = 3.0f;  // by which a leaf reaches ahead of its proxy
 constexpr float kMaxAhead = 2.0f;    // of the largest half extent; what is faster moves its leaf in each step
-constexpr float kFarthest = 1e30f;   // m; leaves end there, so that sums of coordinates stay finite
-constexpr uint32_t kRebuildShare = 8;  // a tree is built anew when one in so many leaves moves,
-constexpr uint32_t kBulkShare = 4;     // or one in so many is added
+constexpr uint32_t kRefitShare = 8;  // the active tree is refitted when one leaf in so many moves,
+constexpr uint32_t kMovesPerBuild = 2;  // and built anew when its leaves have moved so often since
+constexpr uint32_t kBulkShare = 4;      // a tree is built anew when one leaf in so many is added
 constexpr uint32_t kFewLeaves = 32;
 
 bool isBox(const Aabb& box) { return (box.min.array() <= box.max.array()).all(); }
@@ -38,23 +38,41 @@ Aabb fatBounds(const Aabb& box, const Vec3& step) {
 }  // namespace
 
 void TreeBroadphase::grow(uint32_t num_bodies) {
-  if (num_bodies <= records_.size()) return;
+  if (num_bodies <= status_.size()) return;
+  status_.resize(num_bodies, kGone);
   records_.resize(num_bodies);
   bounds_.resize(num_bodies);
   locations_.resize(num_bodies, DynamicTree::kNowhere);
 }
 
-// Removes a body from its tree, if it is in one.
+// Gives a body its kind and its home, and has its pairs searched for. Its leaf is the caller's business.
+void TreeBroadphase::settle(const BroadphaseProxy& proxy, Status home) {
+  const uint32_t body = proxy.body;
+  records_[body].filter_self = proxy.filter_self;
+  records_[body].filter_target = proxy.filter_target;
+  status_[body] =
+      static_cast<uint8_t>(home | kChanged | static_cast<uint8_t>(proxy.motion_type) << kTypeShift);
+  num_restless_ += home == kResting && proxy.motion_type != MotionType::Fixed;
+}
+
+// True when the body is active and of the kind that the proxy says.
+bool TreeBroadphase::isSettled(const BroadphaseProxy& proxy) const {
+  const Record& record = records_[proxy.body];
+  return (status_[proxy.body] & kActive) && typeOf(proxy.body) == proxy.motion_type &&
+         record.filter_self == proxy.filter_self && record.filter_target == proxy.filter_target;
+}
+
+// Removes a body from its tree, if it is in one. What is left is a body that is gone.
 void TreeBroadphase::takeOut(uint32_t body) {
-  Record& record = records_[body];
-  if (record.home == Home::Resting) {
+  const bool is_resting = status_[body] & kResting;
+  if (is_resting) {
     resting_changed_ = true;
-    num_restless_ -= record.motion_type != MotionType::Fixed;
+    num_restless_ -= typeOf(body) != MotionType::Fixed;
   }
   if (locations_[body] != DynamicTree::kNowhere) {
-    (record.home == Home::Active ? active_tree_ : resting_tree_).remove(locations_[body], locations_);
+    (is_resting ? resting_tree_ : active_tree_).remove(locations_[body], locations_);
   }
-  record.home = Home::None;
+  status_[body] = static_cast<uint8_t>((status_[body] & ~(kResting | kActive)) | kGone);
 }
 
 void TreeBroadphase::addLeaves(DynamicTree& tree, std::vector<TreeLeaf>& leaves) {
@@ -76,15 +94,10 @@ Error TreeBroadphase::rest(std::span<const BroadphaseProxy> proxies) {
   std::vector<TreeLeaf> leaves;  // may be large, and is not needed again
   for (const BroadphaseProxy& proxy : proxies) {
     const uint32_t body = proxy.body;
-    Record& record = records_[body];
-    const bool is_repeated = record.home == Home::Resting && locations_[body] == DynamicTree::kNowhere;
+    const bool is_repeated = (status_[body] & kResting) && locations_[body] == DynamicTree::kNowhere;
     takeOut(body);
-    if (!record.changed) fresh_.push_back(body);
-    record.filter_self = proxy.filter_self, record.filter_target = proxy.filter_target;
-    record.motion_type = proxy.motion_type;
-    record.home = Home::Resting;
-    record.changed = true;
-    num_restless_ += record.motion_type != MotionType::Fixed;
+    if (!(status_[body] & kChanged)) fresh_.push_back(body);
+    settle(proxy, kResting);
     bounds_[body] = proxy.bounds;
     if (is_repeated) std::erase_if(leaves, [&](const TreeLeaf& leaf) { return leaf.id == body; });
     if (isBox(proxy.bounds)) leaves.push_back({leafBounds(proxy.bounds), body});
@@ -101,12 +114,11 @@ void TreeBroadphase::remove(uint32_t body) {
 }
 
 uint32_t TreeBroadphase::size() const {
-  return static_cast<uint32_t>(
-      std::ranges::count_if(records_, [](const Record& r) { return r.home != Home::None; }));
+  return static_cast<uint32_t>(std::ranges::count_if(status_, [](uint8_t s) { return !(s & kGone); }));
 }
 
 std::size_t TreeBroadphase::memoryBytes() const {
-  return records_.capacity() * sizeof(Record) + bounds_.capacity() * sizeof(Aabb) +
+  return status_.capacity() + records_.capacity() * sizeof(Record) + bounds_.capacity() * sizeof(Aabb) +
          locations_.capacity() * sizeof(DynamicTree::Location) + resting_tree_.memoryBytes() +
          active_tree_.memoryBytes() + candidates_.capacity() * sizeof(PairKey) +
          (active_pairs_.capacity() + resting_pairs_.capacity() + all_pairs_.capacity()) * sizeof(Pair);
@@ -126,8 +138,8 @@ Error TreeBroadphase::update(std::span<const BroadphaseProxy> active, TaskManage
   updateCandidates();
   updateRestingPairs();
   selectOverlapping(tasks);
-  for (uint32_t body : moved_) records_[body].changed = false;
-  for (uint32_t body : fresh_) records_[body].changed = false;
+  for (uint32_t body : moved_) status_[body] &= static_cast<uint8_t>(~kChanged);
+  for (uint32_t body : fresh_) status_[body] &= static_cast<uint8_t>(~kChanged);
   fresh_.clear();
   return Error::Ok;
 }
@@ -139,27 +151,16 @@ void TreeBroadphase::compareWithLeaves(std::span<const BroadphaseProxy> active, 
     for (uint32_t i = range.begin; i < range.end; ++i) {
       const BroadphaseProxy& proxy = active[i];
       const uint32_t body = proxy.body;
-      Record& record = records_[body];
-      const bool was_active = record.home == Home::Active;
-      const bool same_kind = record.filter_self == proxy.filter_self &&
-                             record.filter_target == proxy.filter_target &&
-                             record.motion_type == proxy.motion_type;
-      const bool in_tree = locations_[body] != DynamicTree::kNowhere;
-      record.stamp = stamp_;
+      const bool has_leaf = isSettled(proxy) && locations_[body] != DynamicTree::kNowhere;
+      const Vec3 step = has_leaf ? Vec3(proxy.bounds.center() - bounds_[body].center()) : Vec3::Zero();
+      records_[body].stamp = stamp_;
+      bounds_[body] = proxy.bounds;
       leaf_of_[i].id = kUnmoved;
       if (!isBox(proxy.bounds)) {
-        bounds_[body] = proxy.bounds;
-        if (!was_active || in_tree || !same_kind) leaf_of_[i] = {proxy.bounds, body};
-        continue;
+        if (has_leaf || !isSettled(proxy)) leaf_of_[i] = {proxy.bounds, body};
+      } else if (!has_leaf || !active_tree_.boundsAt(locations_[body]).contains(leafBounds(proxy.bounds))) {
+        leaf_of_[i] = {fatBounds(proxy.bounds, step), body};
       }
-      const Vec3 step =
-          was_active && in_tree ? Vec3(proxy.bounds.center() - bounds_[body].center()) : Vec3::Zero();
-      bounds_[body] = proxy.bounds;
-      if (was_active && same_kind && in_tree &&
-          active_tree_.boundsAt(locations_[body]).contains(leafBounds(proxy.bounds))) {
-        continue;
-      }
-      leaf_of_[i] = {fatBounds(proxy.bounds, step), body};
     }
   });
 }
@@ -167,11 +168,10 @@ void TreeBroadphase::compareWithLeaves(std::span<const BroadphaseProxy> active, 
 void TreeBroadphase::restTheMissing(std::span<const BroadphaseProxy> active) {
   leaves_.clear();
   for (uint32_t body : active_) {
-    Record& record = records_[body];
-    if (record.home != Home::Active || record.stamp == stamp_) continue;
+    if (!(status_[body] & kActive) || records_[body].stamp == stamp_) continue;
     takeOut(body);
-    record.home = Home::Resting;
-    num_restless_ += record.motion_type != MotionType::Fixed;
+    status_[body] = static_cast<uint8_t>((status_[body] & ~kGone) | kResting);
+    num_restless_ += typeOf(body) != MotionType::Fixed;
     resting_changed_ = true;
     if (isBox(bounds_[body])) leaves_.push_back({leafBounds(bounds_[body]), body});
   }
@@ -180,25 +180,38 @@ void TreeBroadphase::restTheMissing(std::span<const BroadphaseProxy> active) {
   std::ranges::transform(active, active_.begin(), &BroadphaseProxy::body);
 }
 
-// Moves the leaves that compareWithLeaves wants moved.
+// Moves the leaves that compareWithLeaves wants moved: one by one when they are few, else all in their
+// places, with a new tree whenever each leaf has moved twice on the average.
 void TreeBroadphase::moveLeaves(std::span<const BroadphaseProxy> active) {
   moved_.clear();
   for (const TreeLeaf& leaf : leaf_of_) {
     if (leaf.id != kUnmoved) moved_.push_back(leaf.id);
   }
-  const bool rebuild = moved_.size() >= kFewLeaves && moved_.size() >= active.size() / kRebuildShare;
+  const bool are_many = moved_.size() >= kFewLeaves && moved_.size() >= active.size() / kRefitShare;
+  if (are_many) moved_since_build_ += static_cast<uint32_t>(moved_.size());
+  const bool rebuild = are_many && moved_since_build_ > kMovesPerBuild * active_tree_.size();
   for (std::size_t i = 0; i < active.size(); ++i) {
-    if (leaf_of_[i].id == kUnmoved) continue;
-    const BroadphaseProxy& proxy = active[i];
-    Record& record = records_[proxy.body];
-    if (!rebuild || record.home != Home::Active) takeOut(proxy.body);
-    record.filter_self = proxy.filter_self, record.filter_target = proxy.filter_target;
-    record.motion_type = proxy.motion_type;
-    record.home = Home::Active;
-    record.changed = true;
-    if (!rebuild && isBox(leaf_of_[i].bounds)) active_tree_.insert(leaf_of_[i], locations_);
+    const TreeLeaf& leaf = leaf_of_[i];
+    if (leaf.id == kUnmoved) continue;
+    const uint32_t body = active[i].body;
+    const bool in_tree = (status_[body] & kActive) && locations_[body] != DynamicTree::kNowhere;
+    const bool is_near = are_many && in_tree && isBox(leaf.bounds) &&
+                         active_tree_.boundsAt(locations_[body]).overlaps(leaf.bounds);
+    const bool stays = is_near || (in_tree && rebuild);
+    if (!stays) takeOut(body);
+    settle(active[i], kActive);
+    if (rebuild || !isBox(leaf.bounds)) continue;
+    if (stays) {
+      active_tree_.setBounds(locations_[body], leaf.bounds);
+    } else {
+      active_tree_.insert(leaf, locations_);
+    }
   }
-  if (rebuild) rebuildActiveTree(active);
+  if (rebuild) {
+    rebuildActiveTree(active);
+  } else if (are_many) {
+    active_tree_.refit();
+  }
 }
 
 void TreeBroadphase::rebuildActiveTree(std::span<const BroadphaseProxy> active) {
@@ -216,6 +229,7 @@ void TreeBroadphase::rebuildActiveTree(std::span<const BroadphaseProxy> active) 
     }
   }
   active_tree_.build(leaves_, locations_);
+  moved_since_build_ = 0;
 }
 
 }  // namespace pfx

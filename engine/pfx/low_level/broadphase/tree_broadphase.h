@@ -52,7 +52,7 @@ class TreeBroadphase {
   std::span<const Pair> restingPairs() const { return resting_pairs_; }
   std::span<const Pair> pairs();  // both together
 
-  bool contains(uint32_t body) const { return body < records_.size() && records_[body].home != Home::None; }
+  bool contains(uint32_t body) const { return body < status_.size() && !(status_[body] & kGone); }
   uint32_t size() const;
   std::size_t memoryBytes() const;
   const DynamicTree& restingTree() const { return resting_tree_; }
@@ -81,15 +81,14 @@ class TreeBroadphase {
   }
 
  private:
-  enum class Home : uint8_t { None, Resting, Active };
+  // What every pass over pairs asks of a body, in a byte: at home in one of the trees or gone, whether its
+  // pairs have to be searched for, and its motion type above.
+  enum Status : uint8_t { kGone = 1, kResting = 2, kActive = 4, kChanged = 8 };
+  static constexpr int kTypeShift = 4;
   struct Record {
     uint32_t filter_self = 0, filter_target = 0;
     uint32_t stamp = 0;  // number of the last update that named the body
-    MotionType motion_type = MotionType::Fixed;
-    Home home = Home::None;
-    bool changed = false;  // its pairs have to be searched for
   };
-  static_assert(sizeof(Record) == 16);
   struct PairKey {
     uint64_t value;
     uint64_t key() const { return value; }
@@ -99,6 +98,9 @@ class TreeBroadphase {
   }
 
   void grow(uint32_t num_bodies);
+  MotionType typeOf(uint32_t body) const { return static_cast<MotionType>(status_[body] >> kTypeShift); }
+  void settle(const BroadphaseProxy& proxy, Status home);
+  bool isSettled(const BroadphaseProxy& proxy) const;
   void takeOut(uint32_t body);
   void addLeaves(DynamicTree& tree, std::vector<TreeLeaf>& leaves);
   bool mayPair(uint32_t a, uint32_t b) const;
@@ -115,12 +117,14 @@ class TreeBroadphase {
 
   // By body. `bounds_` are the exact ones; `locations_` are places in the tree of the home, or kNowhere for
   // bodies without proper bounds.
+  std::vector<uint8_t> status_;
   std::vector<Record> records_;
   std::vector<Aabb> bounds_;
   std::vector<DynamicTree::Location> locations_;
 
   DynamicTree resting_tree_, active_tree_;
   uint32_t stamp_ = 0;
+  uint32_t moved_since_build_ = 0;   // leaves of the active tree that were refitted
   uint32_t num_restless_ = 0;        // bodies in the resting tree that are not Fixed
   bool resting_changed_ = false;     // a resting body came or went since the last update
   std::vector<uint32_t> active_;     // bodies of the last update

@@ -40,7 +40,7 @@ bool overlapFast(const Aabb& a, const Aabb& b) { return a.overlaps(b); }
 
 bool TreeBroadphase::mayPair(uint32_t a, uint32_t b) const {
   const Record &x = records_[a], &y = records_[b];
-  return detectsCollision(x.motion_type, y.motion_type) &&
+  return detectsCollision(typeOf(a), typeOf(b)) &&
          filtersMatch(x.filter_self, x.filter_target, y.filter_self, y.filter_target);
 }
 
@@ -48,17 +48,16 @@ bool TreeBroadphase::mayPair(uint32_t a, uint32_t b) const {
 // the one with the lower index reports it.
 void TreeBroadphase::searchAround(uint32_t body, std::vector<PairKey>& out) const {
   if (locations_[body] == DynamicTree::kNowhere) return;
-  const Record& record = records_[body];
-  const bool is_active = record.home == Home::Active;
+  const bool is_active = status_[body] & kActive;
   const Aabb box = (is_active ? active_tree_ : resting_tree_).boundsAt(locations_[body]);
   const auto report = [&](uint32_t other) {
-    if (other == body || (records_[other].changed && other < body) || !mayPair(body, other)) return;
-    out.push_back(pairKey(body, other));
+    if (other > body || (other < body && !(status_[other] & kChanged))) {
+      if (mayPair(body, other)) out.push_back(pairKey(body, other));
+    }
   };
   active_tree_.overlap(box, report);
   // Fixed bodies meet nobody at rest when all that rests is fixed.
-  if (is_active || record.motion_type != MotionType::Fixed || num_restless_ > 0)
-    resting_tree_.overlap(box, report);
+  if (is_active || typeOf(body) != MotionType::Fixed || num_restless_ > 0) resting_tree_.overlap(box, report);
 }
 
 void TreeBroadphase::search(TaskManager* tasks) {
@@ -69,7 +68,7 @@ void TreeBroadphase::search(TaskManager* tasks) {
     for (uint32_t i = range.begin; i < range.end; ++i) {
       const uint32_t body = i < num_moved ? moved_[i] : fresh_[i - num_moved];
       // A resting body that was touched and then became active is in both lists.
-      if (i >= num_moved && records_[body].home != Home::Resting) continue;
+      if (i >= num_moved && !(status_[body] & kResting)) continue;
       searchAround(body, found_by_worker_[range.worker]);
     }
   });
@@ -78,7 +77,7 @@ void TreeBroadphase::search(TaskManager* tasks) {
   for (const std::vector<PairKey>& part : found_by_worker_) {
     for (const PairKey& key : part) {
       const auto [a, b, contact, flags] = toPair(key.value);
-      const bool active = records_[a].home == Home::Active || records_[b].home == Home::Active;
+      const bool active = (status_[a] | status_[b]) & kActive;
       if (active || overlapFast(bounds_[a], bounds_[b])) (active ? found_ : resting_found_).push_back(key);
     }
   }
@@ -93,9 +92,9 @@ void TreeBroadphase::updateCandidates() {
   auto next = found_.begin();
   for (const PairKey& key : candidates_) {
     const auto [a, b, contact, flags] = toPair(key.value);
-    const Record &x = records_[a], &y = records_[b];
-    if (x.changed || y.changed || x.home == Home::None || y.home == Home::None) continue;
-    if (x.home == Home::Resting && y.home == Home::Resting) {
+    const int either = status_[a] | status_[b];
+    if (either & (kChanged | kGone)) continue;
+    if (!(either & kActive)) {
       if (overlapFast(bounds_[a], bounds_[b])) resting_found_.push_back(key);
       continue;
     }
@@ -114,8 +113,7 @@ void TreeBroadphase::updateRestingPairs() {
   merged_pairs_.clear();
   auto next = resting_found_.begin();
   for (const Pair& pair : resting_pairs_) {
-    const Record &a = records_[pair.body_a], &b = records_[pair.body_b];
-    if (a.changed || b.changed || a.home != Home::Resting || b.home != Home::Resting) continue;
+    if ((status_[pair.body_a] | status_[pair.body_b]) & (kChanged | kGone | kActive)) continue;
     while (next != resting_found_.end() && next->value < pair.key())
       merged_pairs_.push_back(toPair((next++)->value));
     merged_pairs_.push_back(pair);

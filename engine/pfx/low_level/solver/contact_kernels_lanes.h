@@ -36,6 +36,14 @@ inline V8 relativeVelocity(const Batch& c, const V8& arm_a, const V8& arm_b) {
 // spread pressure and not like its corners.
 inline V8 frictionArm(const V8& center, const V8& arm, F8 spread) { return center + spread * (arm - center); }
 
+// How far the body's rotation has moved the end of `arm` since the start of the step. On a round body the point of
+// contact stays where it is while the surface passes through it, so only the first-order part counts, which has no
+// component along the normal when the body rolls. turns: 1 or 0, see ContactRows.
+inline V8 contactShift(const Motion& m, const V8& arm, F8 turns) {
+  const V8 t = F8::set(2.0f) * cross(m.u, arm);
+  return t + turns * ((m.q - F8::set(1.0f)) * t + cross(m.u, t));
+}
+
 // Softness of a row, from its two kinds.
 inline void storeSoftness(ContactRows& r, F8 both_move, const ContactSolveParams& params) {
   const auto pick = [&](float Softness::*field, Lane& out) {
@@ -139,12 +147,13 @@ inline void push(ContactRows* rows, uint32_t count, SolverBody* bodies, const Co
     Batch c(r, bodies);
     const Motion ma = loadMotion(c.a), mb = loadMotion(c.b);
     const V8 n = V8::load(r.normal), shift = mb.dp - ma.dp;
+    const F8 turns_a = F8::load(r.turns_a), turns_b = F8::load(r.turns_b);
     const F8 bias_rate = F8::load(r.bias_rate);
     const F8 mass_scale = F8::load(r.mass_scale), impulse_scale = F8::load(r.impulse_scale);
     for (uint32_t sweep = 0; sweep < kSweeps * r.num_points; ++sweep) {
       ContactPointRows& p = r.points[sweep % r.num_points];
       const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
-      const F8 s = F8::load(p.separation) + dot(n, shift + (armShift(mb, arm_b) - armShift(ma, arm_a)));
+      const F8 s = F8::load(p.separation) + dot(n, shift + (contactShift(mb, arm_b, turns_b) - contactShift(ma, arm_a, turns_a)));
       const F8 apart = s > zero;
       const F8 bias = select(apart, s * inv_h, max(bias_rate * s, slowest));
       const F8 vn = dot(n, relativeVelocity(c, arm_a, arm_b));
@@ -162,11 +171,12 @@ inline void push(ContactRows* rows, uint32_t count, SolverBody* bodies, const Co
 inline void relaxNormals(Batch& c, const V8& n, F8 inv_h) {
   const Motion ma = loadMotion(c.a), mb = loadMotion(c.b);
   const V8 shift = mb.dp - ma.dp;
+  const F8 turns_a = F8::load(c.rows.turns_a), turns_b = F8::load(c.rows.turns_b);
   const F8 zero = F8::zero();
   for (uint32_t i = 0; i < c.rows.num_points; ++i) {
     ContactPointRows& p = c.rows.points[i];
     const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
-    const F8 s = F8::load(p.separation) + dot(n, shift + (armShift(mb, arm_b) - armShift(ma, arm_a)));
+    const F8 s = F8::load(p.separation) + dot(n, shift + (contactShift(mb, arm_b, turns_b) - contactShift(ma, arm_a, turns_a)));
     const F8 vn = dot(n, relativeVelocity(c, arm_a, arm_b));
     const F8 old = F8::load(p.normal_impulse);
     const F8 impulse = max(old - F8::load(p.normal_mass) * (vn + max(s, zero) * inv_h), zero);

@@ -42,6 +42,8 @@ void fillContactRows(ContactRows& rows, std::span<const ContactConstraint* const
     rows.has_restitution |= c.restitution > 0.0f;
     setLane(rows.normal, lane, m.normal);
     setLane(rows.tangent, lane, tangents(m.normal).t1);
+    rows.turns_a[lane] = c.round_a ? 0.0f : 1.0f;
+    rows.turns_b[lane] = c.round_b ? 0.0f : 1.0f;
     rows.friction[lane] = c.friction;
     rows.restitution[lane] = c.restitution;
     for (int i = 0; i < m.num_points; ++i) fillPoint(rows.points[i], lane, m.points[i]);

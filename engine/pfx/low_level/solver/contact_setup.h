@@ -13,6 +13,7 @@ struct ContactConstraint {
   ContactManifold* manifold;
   uint32_t solver_a, solver_b;  // indices of solver bodies
   bool writable_a, writable_b;  // whether the solver may change A, B
+  bool round_a, round_b;        // whether A, B rolls: its contact point is no fixed point of the body
   float friction;               // of the pair
   float restitution;            // of the pair
 };

@@ -1,17 +1,10 @@
 // Immediate drawing of boxes, axes, islands and contacts.
 #include "pfx/util/debug_render/debug_render.h"
 
+#include "pfx/low_level/broadphase/proxy.h"
 #include "pfx/util/debug_render/palette.h"
 
 namespace pfx {
-
-namespace {
-
-Aabb worldBounds(const RigidState& state, const Collidable& collidable) {
-  return transformedAabb(state.pose(), collidable.center, collidable.half_extent);
-}
-
-}  // namespace
 
 void DebugRender::resetVisible(uint32_t count) { hidden_.assign(count, false); }
 
@@ -28,7 +21,7 @@ void DebugRender::renderAabb(std::span<const RigidState> states, std::span<const
   if (callbacks.aabb == nullptr) return;
   for (uint32_t i = 0; i < states.size(); ++i) {
     if (!getVisible(i)) continue;
-    const Aabb box = worldBounds(states[i], collidables[i]);
+    const Aabb box = bodyAabb(states[i], collidables[i]);
     callbacks.aabb(callbacks.context, box.center(), box.halfExtent(),
                    bodyLook(states[i], i).color | 0xff000000u);
   }
@@ -51,7 +44,7 @@ void DebugRender::renderIsland(uint32_t island, std::span<const uint32_t> bodies
   if (callbacks.aabb == nullptr) return;
   Aabb box;
   for (uint32_t body : bodies) {
-    if (getVisible(body)) box.extend(worldBounds(states[body], collidables[body]));
+    if (getVisible(body)) box.extend(bodyAabb(states[body], collidables[body]));
   }
   if (box.min.x() > box.max.x()) return;  // nothing visible in it
   callbacks.aabb(callbacks.context, box.center(), box.halfExtent(), indexColor(island));

@@ -1,7 +1,11 @@
 // Keys of geometries.
 #include "pfx/util/debug_render/geometry_key.h"
 
+#include <array>
 #include <initializer_list>
+
+#include "pfx/base_level/shape/convex_mesh.h"
+#include "pfx/base_level/shape/large_mesh.h"
 
 #define XXH_INLINE_ALL
 #include <xxhash.h>
@@ -19,6 +23,22 @@ uint64_t hashAddress(ShapeType type, const void* address) {
   return XXH3_64bits_withSeed(&address, sizeof address, static_cast<uint64_t>(type) + 1);
 }
 
+// Hash of arrays one after the other, each with its length.
+class ContentHash {
+ public:
+  explicit ContentHash(ShapeType type) : value_(static_cast<uint64_t>(type) + 1) {}
+
+  template <class Array>
+  ContentHash& add(const Array& array) {
+    value_ = XXH3_64bits_withSeed(array.data(), array.size() * sizeof(array[0]), value_ + array.size());
+    return *this;
+  }
+  uint64_t value() const { return value_; }
+
+ private:
+  uint64_t value_;
+};
+
 struct Key {
   uint64_t operator()(const Sphere& s) const { return hashSizes(ShapeType::Sphere, {s.radius}); }
   uint64_t operator()(const Box& b) const {
@@ -30,8 +50,20 @@ struct Key {
   uint64_t operator()(const Cylinder& c) const {
     return hashSizes(ShapeType::Cylinder, {c.half_length, c.radius});
   }
-  uint64_t operator()(const ConvexMesh*) const { return 0; }
-  uint64_t operator()(const LargeMesh*) const { return 0; }
+  uint64_t operator()(const ConvexMesh* mesh) const {
+    ContentHash hash(ShapeType::ConvexMesh);
+    if (mesh == nullptr) return hash.value();
+    return hash.add(mesh->vertices).add(mesh->faces).add(mesh->face_vertices).value();
+  }
+  // Where the vertices are and how they are joined. A quantized mesh differs from the expanded one by its
+  // rounding.
+  uint64_t operator()(const LargeMesh* mesh) const {
+    ContentHash hash(ShapeType::LargeMesh);
+    if (mesh == nullptr) return hash.value();
+    hash.add(mesh->vertices).add(mesh->triangles);
+    hash.add(std::array{mesh->surface_bounds.min, mesh->grid_scale}).add(mesh->vertex_blocks);
+    return hash.add(mesh->quantized_vertices).add(mesh->quantized_facets).value();
+  }
 };
 
 struct Identity : Key {

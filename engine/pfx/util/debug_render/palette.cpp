@@ -15,7 +15,7 @@ struct Entry {
   Look awake, asleep;
 };
 constexpr Entry kLooks[kNumTypes] = {
-    {{0xffd8d4ccu, Finish::Matte}, {0xffd8d4ccu, Finish::Matte}},              // Fixed
+    {{0xffbdbcb9u, Finish::Matte}, {0xffbdbcb9u, Finish::Matte}},              // Fixed
     {{0xffe0925au, Finish::Soft}, {0xff8593a3u, Finish::Dead}},                // Active
     {{0xff4a7ba6u, Finish::Metallic}, {0xff7f9ab3u, Finish::Metallic}},        // Keyframe
     {{0xff7fae8cu, Finish::Glossy}, {0xff8ea198u, Finish::Dead}},              // OneWay

@@ -13,6 +13,12 @@ inline constexpr Color kWorldColor = 0xff8e959eu;
 inline constexpr Color kContactPointColor = 0xfff2b33du;
 inline constexpr Color kContactNormalColor = 0xffe3663au;
 
+// Edges of a large mesh: flat, convex, concave, open.
+inline constexpr Color kEdgeColors[4] = {0xff9aa3ad, 0xffd98a3f, 0xff3f86b8, 0xffc8475a};
+inline constexpr Color kThicknessColor = 0xffb9b2a6u;
+inline constexpr Color kNormalColor = 0xff5f9e6eu;
+inline constexpr Color kFacetBoxColor = 0xffb0a4c8u;
+
 struct Look {
   Color color;
   Finish finish;

@@ -49,9 +49,11 @@ TEST(BoxPair, CrossedEdgesHaveTheClosedFormDepth) {
 
 TEST(BoxPair, BoxTurnedByFortyFiveDegreesOnAnotherKeepsTheAreaOfTheOctagon) {
   const Shape a = box(1.0f, 1.0f, 1.0f);
-  const ContactManifold m = collide(a, {}, a, {Vec3(0.0f, 1.999f, 0.0f), axisAngle(Vec3::UnitY(), 0.785398163f)});
+  const ContactManifold m =
+      collide(a, {}, a, {Vec3(0.0f, 1.999f, 0.0f), axisAngle(Vec3::UnitY(), 0.785398163f)});
   ASSERT_EQ(m.num_points, 4);
-  // The octagon's corners lie at radius sqrt(1 + tan^2(pi/8)); the largest quadrilateral of four of them is a square.
+  // The octagon's corners lie at radius sqrt(1 + tan^2(pi/8)); the largest quadrilateral of four of them is a
+  // square.
   const float radius = std::sqrt(1.0f + 0.41421356f * 0.41421356f);
   Vec3 centroid = Vec3::Zero();
   for (int i = 0; i < 4; ++i) {
@@ -68,7 +70,8 @@ TEST(BoxPair, IdenticalCentresAndBoxInsideBoxStillHaveAnAxis) {
   const ContactManifold same = collide(a, {}, a, {});
   EXPECT_GT(same.num_points, 0);
   EXPECT_NEAR(deepest(same), -0.8f, 1e-5f);
-  const ContactManifold inside = collide(a, {}, inner, {Vec3(0.05f, 0.1f, 0.0f), axisAngle(Vec3(1, 2, 3), 0.3f)});
+  const ContactManifold inside =
+      collide(a, {}, inner, {Vec3(0.05f, 0.1f, 0.0f), axisAngle(Vec3(1, 2, 3), 0.3f)});
   EXPECT_GT(inside.num_points, 0);
   EXPECT_LT(deepest(inside), -0.3f);
 }
@@ -79,7 +82,8 @@ TEST(BoxPair, SwappingTheBoxesMirrorsTheManifold) {
   for (int i = 0; i < 2000; ++i) {
     const Shape a{Box{Vec3(0.2f, 0.3f, 0.4f) + Vec3::Constant(random.uniform(0.0f, 0.5f))}, {}};
     const Shape b{Box{Vec3(0.5f, 0.2f, 0.3f) + Vec3::Constant(random.uniform(0.0f, 0.5f))}, {}};
-    const Transform pose_a{random.vector(0.6f), random.rotation()}, pose_b{random.vector(0.6f), random.rotation()};
+    const Transform pose_a{random.vector(0.6f), random.rotation()},
+        pose_b{random.vector(0.6f), random.rotation()};
     const ContactManifold ab = collide(a, pose_a, b, pose_b), ba = collide(b, pose_b, a, pose_a);
     ASSERT_EQ(ab.num_points > 0, ba.num_points > 0);
     expectConsistent(ab, pose_a, pose_b, 2e-5f);
@@ -96,7 +100,8 @@ TEST(BoxPair, FeatureNamesPersistUnderSmallMotion) {
   PairCache cache;
   std::set<uint32_t> first;
   for (int frame = 0; frame < 200; ++frame) {
-    const Transform pose{Vec3(0.1f, 0.999f, 0.05f) + random.vector(1e-4f), axisAngle(random.direction(), 1e-4f)};
+    const Transform pose{Vec3(0.1f, 0.999f, 0.05f) + random.vector(1e-4f),
+                         axisAngle(random.direction(), 1e-4f)};
     const ContactManifold m = collide(a, {}, a, pose, 0.02f, &cache);
     ASSERT_EQ(m.num_points, 4);
     std::set<uint32_t> names;
@@ -110,7 +115,8 @@ TEST(BoxPair, FeatureNamesPersistUnderSmallMotion) {
 TEST(BoxPair, FarFromTheOriginTheManifoldIsTheOneNearIt) {
   const Shape a = box(0.5f, 0.5f, 0.5f);
   const Vec3 far(8192.0f, -4096.0f, 16384.0f);  // powers of two: the poses themselves are exact
-  const Transform pose_a{far, Quat::Identity()}, pose_b{far + Vec3(0.25f, 0.984375f, 0.125f), Quat::Identity()};
+  const Transform pose_a{far, Quat::Identity()},
+      pose_b{far + Vec3(0.25f, 0.984375f, 0.125f), Quat::Identity()};
   const ContactManifold m = collide(a, pose_a, a, pose_b);
   ASSERT_EQ(m.num_points, 4);
   for (int i = 0; i < 4; ++i) EXPECT_NEAR(m.points[i].distance, -0.015625f, 1e-6f);

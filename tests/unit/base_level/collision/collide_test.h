@@ -9,10 +9,12 @@
 
 namespace pfx::test {
 
-inline Quat axisAngle(const Vec3& axis, float angle) { return Quat(Eigen::AngleAxisf(angle, axis.normalized())); }
+inline Quat axisAngle(const Vec3& axis, float angle) {
+  return Quat(Eigen::AngleAxisf(angle, axis.normalized()));
+}
 
-inline ContactManifold collide(const Shape& a, const Transform& pose_a, const Shape& b, const Transform& pose_b,
-                               float margin = 0.02f, PairCache* cache = nullptr) {
+inline ContactManifold collide(const Shape& a, const Transform& pose_a, const Shape& b,
+                               const Transform& pose_b, float margin = 0.02f, PairCache* cache = nullptr) {
   ContactManifold m;
   collideShapes({a, pose_a, b, pose_b, margin, cache}, m);
   return m;
@@ -25,7 +27,8 @@ inline float deepest(const ContactManifold& m) {
 }
 
 // Distance of every point agrees with its two ends, the normal is a unit vector.
-inline void expectConsistent(const ContactManifold& m, const Transform& pose_a, const Transform& pose_b, float tolerance) {
+inline void expectConsistent(const ContactManifold& m, const Transform& pose_a, const Transform& pose_b,
+                             float tolerance) {
   EXPECT_NEAR(m.normal.norm(), 1.0f, 1e-5f);
   for (int i = 0; i < m.num_points; ++i) {
     const Vec3 gap = pose_b.apply(m.points[i].local_b) - pose_a.apply(m.points[i].local_a);

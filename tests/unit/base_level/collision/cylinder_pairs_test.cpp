@@ -81,14 +81,16 @@ TEST(CylinderPairs, StackedCylindersTouchWithFourPointsAlsoWhenShifted) {
 }
 
 TEST(CylinderPairs, SideBySideAndCrossedCylindersHaveTheClosedForm) {
-  expectDistances(collide(kCylinder, {}, kCylinder, {Vec3(0.2f, 0.59f, 0.0f), Quat::Identity()}), 2, -0.01f, 1e-6f);
+  expectDistances(collide(kCylinder, {}, kCylinder, {Vec3(0.2f, 0.59f, 0.0f), Quat::Identity()}), 2, -0.01f,
+                  1e-6f);
   const Transform crossed{Vec3(0.0f, 0.595f, 0.0f), axisAngle(Vec3::UnitY(), 1.0f)};
   expectDistances(collide(kCylinder, {}, kCylinder, crossed), 1, -0.005f, 2e-6f);
 }
 
 TEST(CylinderPairs, CapsuleLyingAcrossACapGetsTwoPoints) {
   const Shape capsule{Capsule{1.0f, 0.1f}, {}};
-  const Transform upright{Vec3(0.0f, 0.5f, 0.0f), kUpright}, lying{Vec3(0.0f, 1.099f, 0.0f), Quat::Identity()};
+  const Transform upright{Vec3(0.0f, 0.5f, 0.0f), kUpright},
+      lying{Vec3(0.0f, 1.099f, 0.0f), Quat::Identity()};
   const ContactManifold m = collide(kCylinder, upright, capsule, lying);
   expectDistances(m, 2, -0.001f, 2e-6f);
   EXPECT_NEAR((m.points[0].local_b - m.points[1].local_b).norm(), 0.6f, 1e-4f);
@@ -96,19 +98,22 @@ TEST(CylinderPairs, CapsuleLyingAcrossACapGetsTwoPoints) {
 
 TEST(CylinderPairs, CylinderOnAConvexMeshIsTheOneOnTheBoxOfItsShape) {
   std::vector<Vec3> corners;
-  for (int i = 0; i < 8; ++i) corners.emplace_back(i & 1 ? 5.0f : -5.0f, i & 2 ? 0.0f : -1.0f, i & 4 ? 5.0f : -5.0f);
+  for (int i = 0; i < 8; ++i)
+    corners.emplace_back(i & 1 ? 5.0f : -5.0f, i & 2 ? 0.0f : -1.0f, i & 4 ? 5.0f : -5.0f);
   ConvexMesh mesh;
   ASSERT_EQ(buildConvexMesh(corners, mesh), Error::Ok);
   const Shape floor{&mesh, {}};
   expectDistances(collide(floor, {}, kCylinder, {Vec3(0.3f, 0.499f, -0.2f), kUpright}), 4, -0.001f, 2e-6f);
-  expectDistances(collide(floor, {}, kCylinder, {Vec3(0.3f, 0.299f, -0.2f), Quat::Identity()}), 2, -0.001f, 2e-6f);
+  expectDistances(collide(floor, {}, kCylinder, {Vec3(0.3f, 0.299f, -0.2f), Quat::Identity()}), 2, -0.001f,
+                  2e-6f);
 }
 
 TEST(CylinderPairs, ARollingCylinderKeepsItsFeatureNamesAndNormal) {
   ContactManifold last;
   for (int frame = 0; frame < 100; ++frame) {
     const Quat turn = axisAngle(Vec3::UnitX(), 0.02f * float(frame));
-    const ContactManifold m = collide(kFloor, {}, kCylinder, {Vec3(0.0f, 0.2999f, 0.006f * float(frame)), turn});
+    const ContactManifold m =
+        collide(kFloor, {}, kCylinder, {Vec3(0.0f, 0.2999f, 0.006f * float(frame)), turn});
     ASSERT_EQ(m.num_points, 2);
     EXPECT_NEAR(m.normal.y(), 1.0f, 1e-6f);
     if (frame > 0) {

@@ -60,7 +60,8 @@ TEST(CapsulePairs, CrossedCollinearAndCoincidentCapsulesHaveTheSegmentDistance) 
 
 TEST(CapsulePairs, CapsuleLyingOnABoxGetsBothEndsAndStandingOne) {
   const Shape capsule{Capsule{0.5f, 0.2f}, {}}, box{Box{Vec3(2.0f, 0.5f, 2.0f)}, {}};
-  const ContactManifold lying = collide(box, {}, capsule, {Vec3(0.1f, 0.695f, 0.3f), axisAngle(Vec3::UnitY(), 0.4f)});
+  const ContactManifold lying =
+      collide(box, {}, capsule, {Vec3(0.1f, 0.695f, 0.3f), axisAngle(Vec3::UnitY(), 0.4f)});
   ASSERT_EQ(lying.num_points, 2);
   for (int i = 0; i < 2; ++i) EXPECT_NEAR(lying.points[i].distance, -0.005f, 1e-5f);
   const ContactManifold standing = collide(box, {}, capsule, {Vec3(0.1f, 1.195f, 0.3f), kUp});

@@ -167,6 +167,29 @@ TEST(Ray, kernelsForSse2AndAvx2GiveTheSameBits) {
   EXPECT_GT(hits, 1000);
 }
 
+TEST(Ray, batchesGiveTheSameBitsAsSingleRays) {
+  const auto soup = pfx_test::bumpyGrid(40, 0.25f);
+  for (const LargeMeshType type : {LargeMeshType::ExpandedArray, LargeMeshType::QuantizedArray,
+                                   LargeMeshType::ExpandedBvh, LargeMeshType::QuantizedBvh}) {
+    const LargeMesh mesh = buildLargeMesh(soup.vertices, soup.indices, {.type = type}).mesh;
+    Random random;
+    std::vector<LocalRay> rays(333);
+    for (LocalRay& ray : rays) {
+      ray.start = random.vector(8.0);
+      ray.direction = random.vector(6.0) - ray.start;
+    }
+    std::vector<ShapeHit> hits(rays.size());
+    castRays(rays, mesh, hits);
+    for (size_t i = 0; i < rays.size(); ++i) {
+      const ShapeHit one = castRay(rays[i], mesh);
+      ASSERT_EQ(one.hit, hits[i].hit);
+      ASSERT_EQ(one.fraction, hits[i].fraction);
+      ASSERT_EQ(one.triangle, hits[i].triangle);
+      ASSERT_EQ(one.barycentric, hits[i].barycentric);
+    }
+  }
+}
+
 TEST(Ray, meshesFarFromTheOriginAndRaysFromFarAwayAreHit) {
   auto soup = pfx_test::flatGrid(10, 1.0f);
   for (Vec3& v : soup.vertices) v += Vec3(100000, 0, -50000);

@@ -35,7 +35,8 @@ TEST(MassProperties, BoxOf512SubBoxesEqualsTheBox) {
   const Vec3 shift(3.0f, -2.0f, 1.0f);
   for (int i = 0; i < 512; ++i) {
     const Vec3 cell(float(i % 8) - 3.5f, float(i / 8 % 8) - 3.5f, float(i / 64) - 3.5f);
-    parts.push_back({Box{Vec3(0.125f, 0.0625f, 0.25f)}, {shift + turn * cell.cwiseProduct(Vec3(0.25f, 0.125f, 0.5f)), turn}});
+    parts.push_back({Box{Vec3(0.125f, 0.0625f, 0.25f)},
+                     {shift + turn * cell.cwiseProduct(Vec3(0.25f, 0.125f, 0.5f)), turn}});
   }
   const MassProperties sum = massProperties(parts, 2.0f);
   const MassProperties whole = massProperties(Shape{Box{Vec3(1.0f, 0.5f, 2.0f)}, {shift, turn}}, 2.0f);
@@ -45,7 +46,8 @@ TEST(MassProperties, BoxOf512SubBoxesEqualsTheBox) {
 }
 
 TEST(MassProperties, TwoBallsFollowTheParallelAxisTheorem) {
-  const std::vector<Shape> balls{{Sphere{0.1f}, {Vec3(1, 0, 0), Quat::Identity()}}, {Sphere{0.1f}, {Vec3(3, 0, 0), Quat::Identity()}}};
+  const std::vector<Shape> balls{{Sphere{0.1f}, {Vec3(1, 0, 0), Quat::Identity()}},
+                                 {Sphere{0.1f}, {Vec3(3, 0, 0), Quat::Identity()}}};
   const MassProperties one = massProperties(balls[0], 5.0f), two = massProperties(balls, 5.0f);
   EXPECT_NEAR(two.center.x(), 2.0f, 1e-6f);
   EXPECT_NEAR(two.inertia(0, 0), 2.0f * one.inertia(0, 0), 1e-6f);

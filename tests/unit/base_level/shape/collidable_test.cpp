@@ -36,7 +36,8 @@ TEST(ShapeAabb, CapsuleBoundsAreThoseOfItsTwoBalls) {
 }
 
 TEST(Collidable, BoundsOfSeveralShapesHoldThemAll) {
-  const std::vector<Shape> shapes{{Sphere{0.5f}, {Vec3(2, 0, 0), Quat::Identity()}}, {Box{Vec3(1, 1, 1)}, {}}};
+  const std::vector<Shape> shapes{{Sphere{0.5f}, {Vec3(2, 0, 0), Quat::Identity()}},
+                                  {Box{Vec3(1, 1, 1)}, {}}};
   Collidable c;
   c.external = shapes;
   ASSERT_EQ(c.finish(), Error::Ok);
@@ -72,7 +73,8 @@ TEST(BoxPolytope, EdgesRunCounterClockwiseAroundTheirLeftFace) {
   }
   for (uint32_t f = 0; f < 6; ++f) {
     const auto loop = p.face(f);
-    const Vec3 n = (p.vertices[loop[1]] - p.vertices[loop[0]]).cross(p.vertices[loop[2]] - p.vertices[loop[1]]);
+    const Vec3 n =
+        (p.vertices[loop[1]] - p.vertices[loop[0]]).cross(p.vertices[loop[2]] - p.vertices[loop[1]]);
     EXPECT_GT(n.normalized().dot(p.planes[f].normal), 0.999f);
   }
 }

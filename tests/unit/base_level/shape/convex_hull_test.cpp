@@ -14,7 +14,8 @@ namespace {
 
 std::vector<Vec3> cubeCorners(const Vec3& half) {
   std::vector<Vec3> corners;
-  for (int i = 0; i < 8; ++i) corners.push_back(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1).cwiseProduct(half));
+  for (int i = 0; i < 8; ++i)
+    corners.push_back(Vec3(i & 1 ? 1 : -1, i & 2 ? 1 : -1, i & 4 ? 1 : -1).cwiseProduct(half));
   return corners;
 }
 
@@ -29,7 +30,8 @@ void expectSound(const ConvexMesh& mesh, float tolerance) {
   for (uint32_t f = 0; f < p.faces.size(); ++f) {
     EXPECT_NEAR(p.planes[f].normal.norm(), 1.0f, 1e-5f);
     for (const Vec3& v : p.vertices) EXPECT_LE(p.planes[f].normal.dot(v) - p.planes[f].offset, tolerance);
-    for (uint16_t v : p.face(f)) EXPECT_NEAR(p.planes[f].normal.dot(p.vertices[v]), p.planes[f].offset, tolerance);
+    for (uint16_t v : p.face(f))
+      EXPECT_NEAR(p.planes[f].normal.dot(p.vertices[v]), p.planes[f].offset, tolerance);
   }
   for (const PolytopeEdge& e : p.edges) EXPECT_NE(e.left, e.right);
 }
@@ -112,7 +114,8 @@ TEST(ConvexHull, RandomCloudsHoldAllTheirPoints) {
     std::vector<Vec3> points;
     for (int i = 0; i < 60; ++i) {
       Vec3 p;
-      for (int c = 0; c < 3; ++c) p[c] = lattice > 0.0f ? std::round(uniform() * lattice) / lattice : uniform();
+      for (int c = 0; c < 3; ++c)
+        p[c] = lattice > 0.0f ? std::round(uniform() * lattice) / lattice : uniform();
       p.y() *= flat;
       points.push_back(p);
     }
@@ -195,7 +198,8 @@ TEST(ConvexMassProperties, CubeMeshEqualsTheBoxAndTetrahedronTheClosedForm) {
   EXPECT_NEAR((m.center - Vec3(5, -3, 2)).norm(), 0.0f, 1e-5f);
   EXPECT_LT((m.inertia - box.inertia).norm(), 1e-5f * box.inertia.norm());
 
-  // Corner tetrahedron with legs 1: volume 1/6, centre 1/4, I_xx about the origin 2 / 60, products of inertia 1 / 120.
+  // Corner tetrahedron with legs 1: volume 1/6, centre 1/4, I_xx about the origin 2 / 60, products of inertia
+  // 1 / 120.
   const std::vector<Vec3> legs{{0, 0, 0}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
   ASSERT_EQ(buildConvexMesh(legs, mesh), Error::Ok);
   EXPECT_NEAR(mesh.volume, 1.0f / 6.0f, 1e-6f);

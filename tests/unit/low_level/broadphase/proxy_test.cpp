@@ -32,6 +32,25 @@ TEST(UpdateProxy, boundsTheTurnedBodyAndCopiesItsFilters) {
   EXPECT_EQ(proxy.motion_type, MotionType::OneWay);
 }
 
+TEST(BodyAabb, isTightRoundPrimitivesHoweverTheyTurn) {
+  Collidable sphere, capsule, unfinished;
+  sphere.inline_shape.geometry = Sphere{2.0f};
+  sphere.inline_shape.offset.position = Vec3(1, 0, 0);
+  capsule.inline_shape.geometry = Capsule{3.0f, 0.5f};
+  ASSERT_EQ(sphere.finish(), Error::Ok);
+  ASSERT_EQ(capsule.finish(), Error::Ok);
+  RigidState state;
+  const float eighth = std::numbers::pi_v<float> / 8.0f;  // half of 45 degrees, about z
+  state.orientation = Quat(std::cos(eighth), 0, 0, std::sin(eighth));
+  const float r = std::sqrt(0.5f);
+  const Aabb ball = bodyAabb(state, sphere), pill = bodyAabb(state, capsule);
+  // A few roundings at values up to 3.
+  EXPECT_TRUE(ball.center().isApprox(Vec3(r, r, 0), 1e-6f));
+  EXPECT_TRUE(ball.halfExtent().isApprox(Vec3(2, 2, 2), 1e-6f));
+  EXPECT_TRUE(pill.halfExtent().isApprox(Vec3(3 * r + 0.5f, 3 * r + 0.5f, 0.5f), 1e-6f));
+  EXPECT_TRUE(bodyAabb(state, unfinished).halfExtent().isZero());
+}
+
 TEST(UpdateProxy, reportsBodiesOutsideTheWorldAndWritesTheProxyAllTheSame) {
   const WorldBox world{Vec3(100, 0, 0), Vec3(10, 10, 10)};
   RigidState state;

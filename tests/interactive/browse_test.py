@@ -1,0 +1,193 @@
+"""Drives the real browser under a virtual display with synthetic keys and mouse.
+
+The title of the window tells scene, step and pause, so that what a gesture did can be read without looking at pixels;
+pictures are compared only to see that something changed. Usage: browse_test.py PROGRAM
+"""
+
+import os
+import pathlib
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import unittest
+
+PROGRAM = ""
+PATIENCE = 90  # s, until a change must have been seen; the machine may be busy
+
+
+class Display:
+    """An X server of our own, on a number that it chooses."""
+
+    def __init__(self):
+        read, write = os.pipe()
+        # Without -noreset the server starts over when its last client leaves.
+        self.server = subprocess.Popen(
+            ["Xvfb", "-displayfd", str(write), "-screen", "0", "1280x800x24", "-noreset"],
+            pass_fds=[write], stderr=subprocess.DEVNULL)
+        os.close(write)
+        with os.fdopen(read) as pipe:
+            self.name = ":" + pipe.readline().strip()
+
+    def close(self):
+        self.server.terminate()
+        self.server.wait()
+
+
+class BrowserTest(unittest.TestCase):
+    @classmethod
+    def setUpClass(cls):
+        cls.display = Display()
+
+    @classmethod
+    def tearDownClass(cls):
+        cls.display.close()
+
+    def setUp(self):
+        self.folder = pathlib.Path(tempfile.mkdtemp(prefix="vitrine_browse_"))
+        self.env = dict(os.environ, DISPLAY=self.display.name, XDG_CONFIG_HOME=str(self.folder))
+        self.start("2_stable/tower")
+
+    def tearDown(self):
+        if self.browser.poll() is None:
+            self.browser.kill()
+        self.browser.wait()
+        shutil.rmtree(self.folder)
+
+    def start(self, *target):
+        self.browser = subprocess.Popen([PROGRAM, "browse", *target, "--pictures", str(self.folder)], env=self.env)
+        self.wait(lambda: "Vitrine" in self.title() and "step" in self.title())
+        self.xdo("search", "--name", "Vitrine", "windowfocus")
+
+    def xdo(self, *arguments):
+        return subprocess.run(["xdotool", *arguments], env=self.env, capture_output=True, text=True).stdout.strip()
+
+    def key(self, name):
+        self.xdo("key", name)
+        time.sleep(0.3)
+
+    def title(self):
+        return self.xdo("search", "--name", "Vitrine", "getwindowname").split("\n")[-1]
+
+    def step(self):
+        found = re.search(r"step (\d+)", self.title())
+        return int(found.group(1)) if found else -1
+
+    def wait(self, condition):
+        end = time.monotonic() + PATIENCE
+        while time.monotonic() < end:
+            if condition():
+                return
+            self.assertIsNone(self.browser.poll() if hasattr(self, "browser") else None, "the browser ended")
+            time.sleep(0.2)
+        self.fail("nothing happened; the title is " + self.title())
+
+    def picture(self):
+        """The screen without the time-dependent lower edge."""
+        return subprocess.run(["import", "-window", "root", "-crop", "740x700+230+10", "rgb:-"], env=self.env,
+                              capture_output=True, check=True).stdout
+
+    def pause(self):
+        self.key("space")
+        self.wait(lambda: "paused" in self.title())
+        time.sleep(1.5)
+
+    def test_pause_step_and_step_back(self):
+        self.pause()
+        at = self.step()
+        self.key("period")
+        self.wait(lambda: self.step() == at + 1)
+        self.key("comma")
+        self.key("comma")
+        self.wait(lambda: self.step() == at - 1)
+        self.key("space")
+        self.wait(lambda: self.step() > at + 1)
+
+    def test_restart_and_scene_switching(self):
+        self.wait(lambda: self.step() > 20)
+        self.pause()
+        self.key("r")
+        self.wait(lambda: self.step() < 20)
+        self.key("bracketright")
+        self.wait(lambda: "2_stable/tower" not in self.title())
+        self.key("bracketleft")
+        self.wait(lambda: "2_stable/tower" in self.title())
+
+    def test_search_finds_a_scene_by_name(self):
+        self.key("ctrl+o")
+        self.xdo("type", "--delay", "120", "primit")
+        time.sleep(1)
+        self.key("Return")
+        self.wait(lambda: "primitives" in self.title())
+
+    def test_overlays_selection_and_help_change_the_picture(self):
+        self.pause()
+        plain = self.picture()
+        for key in ("shift+c", "shift+a", "shift+x"):
+            self.key(key)
+            self.wait(lambda: self.picture() != plain)
+            self.key(key)
+            self.wait(lambda: self.picture() == plain)
+        self.xdo("mousemove", "640", "480")
+        time.sleep(1)
+        self.xdo("click", "1")
+        self.wait(lambda: self.picture() != plain)
+        self.key("Escape")
+        self.wait(lambda: self.picture() == plain)
+        self.key("F1")
+        self.wait(lambda: self.picture() != plain)
+
+    def test_dragging_turns_the_view_and_home_brings_it_back(self):
+        self.pause()
+        plain = self.picture()
+        self.xdo("mousemove", "600", "400")
+        time.sleep(1)
+        self.xdo("mousedown", "1")
+        time.sleep(0.5)
+        self.xdo("mousemove", "700", "420")
+        time.sleep(0.5)
+        self.xdo("mouseup", "1")
+        self.wait(lambda: self.picture() != plain)
+        self.key("Home")
+        self.wait(lambda: self.picture() == plain)
+
+    def test_a_body_can_be_pulled_with_the_mouse(self):
+        self.pause()
+        before = self.picture()
+        self.xdo("mousemove", "640", "480")
+        time.sleep(1)
+        self.xdo("keydown", "ctrl")
+        time.sleep(0.5)
+        self.xdo("mousedown", "1")
+        time.sleep(0.5)
+        self.xdo("mousemove", "560", "250")
+        self.wait(lambda: "paused" not in self.title())
+        time.sleep(2)
+        self.xdo("mouseup", "1")
+        self.xdo("keyup", "ctrl")
+        self.assertNotEqual(self.picture(), before)
+
+    def test_a_screenshot_is_saved_and_resizing_keeps_it_alive(self):
+        self.key("F12")
+        self.wait(lambda: list(self.folder.glob("2_stable_tower_*.png")))
+        window = self.xdo("search", "--name", "Vitrine").split("\n")[-1]
+        for size in (("500", "400"), ("1280", "800")):
+            self.xdo("windowsize", window, *size)
+            at = self.step()
+            self.wait(lambda: self.step() > at)
+
+    def test_quitting_remembers_the_scene(self):
+        self.key("bracketright")
+        self.wait(lambda: "2_stable/tower" not in self.title())
+        scene = self.title().split(" - ")[0]
+        self.key("ctrl+q")
+        self.assertEqual(self.browser.wait(PATIENCE), 0)
+        self.start()
+        self.assertTrue(self.title().startswith(scene))
+
+
+if __name__ == "__main__":
+    PROGRAM = os.path.abspath(sys.argv.pop(1))
+    unittest.main()

@@ -1,0 +1,22 @@
+// Why an island is awake, in words and numbers: for the inspector panel and for vitrine inspect.
+#pragma once
+
+#include <string>
+
+#include "pfx/high_level/world/world.h"
+
+namespace viewer {
+
+struct SleepFacts {
+  uint32_t fastest = 0;  // body index of the member that is furthest above or nearest to the sleep velocity
+  float linear_speed = 0.0f;   // m/s, of that body
+  float angular_speed = 0.0f;  // rad/s
+  uint32_t least_rested = 0;   // body index of the member that was slow for the fewest steps
+  uint32_t slow_steps = 0;     // those steps
+  std::string why;             // one sentence
+};
+
+// Of an island of the world (index < world.numIslands()).
+SleepFacts explainSleep(const pfx::World& world, uint32_t island);
+
+}  // namespace viewer
