@@ -6,7 +6,8 @@
 namespace pfx_test {
 namespace {
 
-constexpr double kPivotInertia = 1.0 / 3.0 + 0.01 / 12.0;  // kg m^2, of a 1 m, 1 kg, 0.1 m wide rod about its end
+constexpr double kPivotInertia =
+    1.0 / 3.0 + 0.01 / 12.0;  // kg m^2, of a 1 m, 1 kg, 0.1 m wide rod about its end
 
 struct Arm {
   World world;
@@ -23,7 +24,8 @@ Arm makeArm(double angle, bool gravity) {
   Arm a{World(def), {}, {}};
   const BodyId post = addPost(a.world);
   a.rod = addRod(a.world, {}, downAt(angle, 0.5), angle);
-  a.hinge = a.world.addJoint({.body_a = post, .body_b = a.rod, .params = HingeJointParams{.axis = Vec3::UnitZ()}});
+  a.hinge =
+      a.world.addJoint({.body_a = post, .body_b = a.rod, .params = HingeJointParams{.axis = Vec3::UnitZ()}});
   return a;
 }
 
@@ -69,7 +71,8 @@ TEST(AccDrive, aSpringHasItsFrequencyAndDamping) {
   for (int i = 1; i <= 180; ++i) {
     a.world.step(kDt);
     const double t = i * static_cast<double>(kDt);
-    const double x = 0.3 * std::exp(-0.1 * w * t) * (std::cos(damped * t) + 0.1 * w / damped * std::sin(damped * t));
+    const double x =
+        0.3 * std::exp(-0.1 * w * t) * (std::cos(damped * t) + 0.1 * w / damped * std::sin(damped * t));
     error.add((a.angle() - x) / 0.3);
   }
   report("spring, 3 s, relative to the amplitude", error.value, 1e-3, "");

@@ -1,6 +1,8 @@
-// Soft joints: components with too many loops for the direct solver, by sequential impulses eight joints wide.
+// Soft joints: components with too many loops for the direct solver, by sequential impulses eight joints
+// wide.
 //
-// The same scheme as for contacts: stiffness tied to the sub-step, a coloured graph, a relax pass. See soft_step.h.
+// The same scheme as for contacts: stiffness tied to the sub-step, a coloured graph, a relax pass. See
+// soft_step.h.
 #pragma once
 
 #include <span>
@@ -40,7 +42,9 @@ class SoftJoints {
   void prepare(std::span<const RigidState> states, std::span<const uint8_t> is_dynamic,
                std::span<const SolverBody> bodies, const SoftJointParams& params, TaskManager& tasks);
 
-  void warmStart(std::span<SolverBody> bodies, TaskManager& tasks) { run(kernels_->warm_start, bodies, tasks); }
+  void warmStart(std::span<SolverBody> bodies, TaskManager& tasks) {
+    run(kernels_->warm_start, bodies, tasks);
+  }
   void push(std::span<SolverBody> bodies, TaskManager& tasks) { run(kernels_->push, bodies, tasks); }
   void relax(std::span<SolverBody> bodies, TaskManager& tasks) { run(kernels_->relax, bodies, tasks); }
 
