@@ -2,6 +2,7 @@
 #include <cmath>
 
 #include "pfx/base_level/math/trig.h"
+#include "pfx/base_level/rigid_body/rotation_update.h"
 #include "samples/registry.h"
 #include "samples/shared/builders.h"
 #include "samples/shared/ragdoll.h"
@@ -25,7 +26,7 @@ struct BasicJoints final : Scene {
     addPair(world, "swing twist", 1, level, SwingTwistJointParams{.anchor_point = at, .twist_axis = z});
     addPair(world, "hinge", 2, level,
             HingeJointParams{.anchor_point = at, .axis = x, .lower_angle = -0.5f, .upper_angle = 0.7f});
-    const Quat downhill = rotation(x, 0.5f);
+    const Quat downhill = expMap(0.5f * x);
     addPair(world, "slider", 3, downhill,
             SliderJointParams{.anchor_point = downhill * at,
                               .direction = downhill * z,
@@ -40,7 +41,8 @@ struct BasicJoints final : Scene {
   static Vec3 anchor() { return Vec3(0, 0, kHalfLength + 0.5f * kGap); }
 
   // `params` is given for a pair whose first box stands at the origin.
-  static void addPair(World& world, const std::string& name, int place, const Quat& turn, JointParams params) {
+  static void addPair(World& world, const std::string& name, int place, const Quat& turn,
+                      JointParams params) {
     const Vec3 offset((static_cast<float>(place) - 2.5f) * kPitch, kHeight, 0.0f);
     const std::vector<Shape> box = {shape(Box{Vec3(0.25f, 0.7f, kHalfLength)})};
     const BodyId a = world.addBody({.name = name + " base",
@@ -48,8 +50,10 @@ struct BasicJoints final : Scene {
                                     .motion_type = MotionType::Fixed,
                                     .shapes = box,
                                     .mass = 5.0f});
-    const BodyId b = world.addBody(
-        {.name = name + " arm", .pose = {offset + turn * (2.0f * anchor()), turn}, .shapes = box, .mass = 5.0f});
+    const BodyId b = world.addBody({.name = name + " arm",
+                                    .pose = {offset + turn * (2.0f * anchor()), turn},
+                                    .shapes = box,
+                                    .mass = 5.0f});
     std::visit(
         [&](auto& p) {
           if constexpr (requires { p.anchor_point; }) p.anchor_point += offset;
@@ -71,9 +75,10 @@ struct Ragdolls final : Scene {
     }
     for (int i = 0; i < 5; ++i) {
       const float angle = 0.35f * static_cast<float>(i - 2);
-      addRagdoll(world, "ragdoll " + std::to_string(i),
-                 {.position = Vec3(3.4f * static_cast<float>(i - 2), 5.2f + 0.5f * static_cast<float>(i), -3.6f),
-                  .orientation = rotation(Vec3::UnitX(), angle)});
+      addRagdoll(
+          world, "ragdoll " + std::to_string(i),
+          {.position = Vec3(3.4f * static_cast<float>(i - 2), 5.2f + 0.5f * static_cast<float>(i), -3.6f),
+           .orientation = expMap(angle * Vec3::UnitX())});
     }
   }
 };
@@ -81,8 +86,8 @@ struct Ragdolls final : Scene {
 // A rope over two pulleys, ten kilograms at one end, two at the other.
 struct PulleyMachine final : Scene {
   static constexpr float kPulleyX = 2.0f, kPulleyY = 7.0f;
-  static constexpr float kPath = 0.64f;   // m, radius at which the rope runs over a pulley
-  static constexpr float kPitch = 0.4f;   // m, of the rope's links
+  static constexpr float kPath = 0.64f;  // m, radius at which the rope runs over a pulley
+  static constexpr float kPitch = 0.4f;  // m, of the rope's links
   static constexpr int kLinks = 32;
 
   void build(World& world) override {
@@ -93,19 +98,21 @@ struct PulleyMachine final : Scene {
 
  private:
   static void addPulley(World& world, BodyId ground, float side) {
-    const Quat along_z = rotation(Vec3::UnitY(), -0.5f * kPi);
+    const Quat along_z = expMap(-0.5f * kPi * Vec3::UnitY());
     const Vec3 center(side * kPulleyX, kPulleyY, 0);
     const auto disc = [&](float z) {
       return shape(Cylinder{0.05f, 0.95f}, {.position = Vec3(0, 0, z), .orientation = along_z});
     };
-    const BodyId pulley = world.addBody({.name = side < 0 ? "left pulley" : "right pulley",
-                                         .pose = {.position = center},
-                                         .shapes = {shape(Capsule{0.3f, 0.5f}, {.orientation = along_z}), disc(-0.3f), disc(0.3f)},
-                                         .mass = 10.0f});
-    world.addJoint({.name = side < 0 ? "left bearing" : "right bearing",
-                    .body_a = ground,
-                    .body_b = pulley,
-                    .params = HingeJointParams{.anchor_point = center, .axis = Vec3::UnitZ(), .damping = 0.01f}});
+    const BodyId pulley = world.addBody(
+        {.name = side < 0 ? "left pulley" : "right pulley",
+         .pose = {.position = center},
+         .shapes = {shape(Capsule{0.3f, 0.5f}, {.orientation = along_z}), disc(-0.3f), disc(0.3f)},
+         .mass = 10.0f});
+    world.addJoint(
+        {.name = side < 0 ? "left bearing" : "right bearing",
+         .body_a = ground,
+         .body_b = pulley,
+         .params = HingeJointParams{.anchor_point = center, .axis = Vec3::UnitZ(), .damping = 0.01f}});
   }
 
   // Point of the rope's path, s metres from its middle at the top between the pulleys.
@@ -168,7 +175,8 @@ std::vector<SceneEntry> jointScenes() {
   return {
       {.sample = sample,
        .name = "basic_joints",
-       .shows = "ball, swing twist, hinge, slider, fixed and universal joint: what each one leaves free, gravity uses",
+       .shows = "ball, swing twist, hinge, slider, fixed and universal joint: what each one leaves free, "
+                "gravity uses",
        .camera = {.target = Vec3(0.0f, 4.3f, 1.2f), .distance = 19.0f, .yaw_deg = 32.0f, .pitch_deg = 14.0f},
        .frames = {0, 40, 240},
        .world = {},

@@ -1,8 +1,7 @@
 #include "samples/shared/ragdoll.h"
 
-#include "pfx/base_level/math/trig.h"
 #include "pfx/base_level/rigid_body/mass_properties.h"
-#include "samples/shared/builders.h"
+#include "pfx/base_level/rigid_body/rotation_update.h"
 
 namespace samples {
 namespace {
@@ -33,10 +32,13 @@ struct Builder {
   Vec3 axis(const Vec3& a) const { return pose.orientation * a; }
 
   JointId join(Ragdoll::Part a, Ragdoll::Part b, const char* what, const JointParams& params) {
-    return out.joints[num_joints++] = world.addJoint(
-               {.name = name + " " + what, .body_a = out.bodies[a], .body_b = out.bodies[b], .params = params});
+    return out.joints[num_joints++] = world.addJoint({.name = name + " " + what,
+                                                      .body_a = out.bodies[a],
+                                                      .body_b = out.bodies[b],
+                                                      .params = params});
   }
-  void cone(Ragdoll::Part a, Ragdoll::Part b, const char* what, const Vec3& at, const Vec3& twist, float swing) {
+  void cone(Ragdoll::Part a, Ragdoll::Part b, const char* what, const Vec3& at, const Vec3& twist,
+            float swing) {
     join(a, b, what,
          SwingTwistJointParams{.anchor_point = point(at),
                                .twist_axis = axis(twist),
@@ -56,7 +58,7 @@ struct Builder {
 };
 
 Transform upright(const Vec3& at) {
-  return {.position = at, .orientation = rotation(Vec3::UnitZ(), 0.5f * kPi)};
+  return {.position = at, .orientation = expMap(0.5f * 3.14159265f * Vec3::UnitZ())};
 }
 
 void addTrunk(Builder& b) {
@@ -67,8 +69,8 @@ void addTrunk(Builder& b) {
   b.cone(Ragdoll::Torso, Ragdoll::Head, "neck", Vec3(0, 0.92f, 0), Vec3::UnitY(), 0.5f);
 }
 
-// side: +1 for the limbs at +X (its left), -1 for the others. Knees bend backwards, elbows forwards, legs swing
-// outwards by 0.52 and forwards by a right angle.
+// side: +1 for the limbs at +X (its left), -1 for the others. Knees bend backwards, elbows forwards, legs
+// swing outwards by 0.52 and forwards by a right angle.
 void addLeg(Builder& b, float side) {
   const bool left = side > 0.0f;
   const auto upper = left ? Ragdoll::UpperLegL : Ragdoll::UpperLegR;
@@ -93,9 +95,11 @@ void addArm(Builder& b, float side) {
   const auto upper = left ? Ragdoll::UpperArmL : Ragdoll::UpperArmR;
   const auto lower = left ? Ragdoll::LowerArmL : Ragdoll::LowerArmR;
   const auto at = [&](float x) { return Vec3(x * side, 0.68f, 0); };
-  b.add(upper, left ? "left upper arm" : "right upper arm", Capsule{0.2f, 0.12f}, {.position = at(0.72f)}, 5.0f);
+  b.add(upper, left ? "left upper arm" : "right upper arm", Capsule{0.2f, 0.12f}, {.position = at(0.72f)},
+        5.0f);
   b.add(lower, left ? "left forearm" : "right forearm", Capsule{0.2f, 0.1f}, {.position = at(1.34f)}, 3.0f);
-  b.cone(Ragdoll::Torso, upper, left ? "left shoulder" : "right shoulder", at(0.4f), side * Vec3::UnitX(), kRightAngle);
+  b.cone(Ragdoll::Torso, upper, left ? "left shoulder" : "right shoulder", at(0.4f), side * Vec3::UnitX(),
+         kRightAngle);
   b.hinge(upper, lower, left ? "left elbow" : "right elbow", at(1.03f), -side * Vec3::UnitY());
 }
 

@@ -9,7 +9,19 @@
 namespace samples {
 
 struct Ragdoll {
-  enum Part { Pelvis, Torso, Head, UpperLegL, UpperLegR, LowerLegL, LowerLegR, UpperArmL, UpperArmR, LowerArmL, LowerArmR };
+  enum Part {
+    Pelvis,
+    Torso,
+    Head,
+    UpperLegL,
+    UpperLegR,
+    LowerLegL,
+    LowerLegR,
+    UpperArmL,
+    UpperArmR,
+    LowerArmL,
+    LowerArmR
+  };
   std::array<pfx::BodyId, 11> bodies;  // by Part
   std::array<pfx::JointId, 10> joints;
   std::array<pfx::JointId, 4> hinges;  // knees and elbows: 0 .. 1.57 rad

@@ -14,7 +14,8 @@ void BodyDrag::begin(World& world, BodyId body, const Vec3& point, float strengt
                            .shapes = {{Sphere{1e-3f}}},
                            .filter_self = 0,
                            .filter_target = 0});
-  Joint joint = makeBallJoint(world.states()[hand_.index], world.states()[body.index], {.anchor_point = point});
+  Joint joint =
+      makeBallJoint(world.states()[hand_.index], world.states()[body.index], {.anchor_point = point});
   const float mass = world.bodies()[body.index].mass;
   for (int i = 0; i < 3; ++i) {
     joint.axis[i].max_force = strength * mass;

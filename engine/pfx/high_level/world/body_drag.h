@@ -1,4 +1,5 @@
-// Dragging a body by one of its points, as with a mouse: a ball joint of limited force towards a point that moves.
+// Dragging a body by one of its points, as with a mouse: a ball joint of limited force towards a point that
+// moves.
 #pragma once
 
 #include "pfx/high_level/world/world.h"
@@ -7,8 +8,9 @@ namespace pfx {
 
 class BodyDrag {
  public:
-  // Takes hold of `body` at a world point. strength: largest acceleration (m/s^2) that the force could give the body
-  // alone. Throws std::invalid_argument when the body does not exist or is not dynamic. Lets go of what it held before.
+  // Takes hold of `body` at a world point. strength: largest acceleration (m/s^2) that the force could give
+  // the body alone. Throws std::invalid_argument when the body does not exist or is not dynamic. Lets go of
+  // what it held before.
   void begin(World& world, BodyId body, const Vec3& point, float strength = 120.0f);
 
   // Where the point is to go, in the world. Nothing happens when nothing is held, or the body was removed.

@@ -49,6 +49,14 @@ void World::Impl::linkIslands() {
   islands.build(store.states, island_links);
 }
 
+// The links of all islands, in the order in which the islands keep them, as indices of pairs.
+void World::Impl::listIslandPairs() {
+  island_pairs.clear();
+  for (uint32_t k = 0; k < islands.size(); ++k)
+    for (uint32_t link : islands.links(k))
+      island_pairs.push_back(link < island_link_pairs.size() ? island_link_pairs[link] : 0);
+}
+
 World::World(const WorldDef& def) {
   if (def.substeps < 1) throw std::invalid_argument("world: substeps must be >= 1");
   if (!def.gravity.allFinite()) throw std::invalid_argument("world: gravity is not finite");
@@ -213,6 +221,7 @@ std::span<const ContactManifold> World::manifolds(const Pair& pair) const {
 
 uint32_t World::numIslands() const {
   impl_->linkIslands();
+  impl_->listIslandPairs();
   return impl_->islands.size();
 }
 
@@ -222,8 +231,9 @@ IslandView World::island(uint32_t index) const {
   const auto links = impl_->islands.links(index);
   const auto first_joint = std::lower_bound(links.begin(), links.end(), impl_->island_link_pairs.size());
   const auto num_contacts = static_cast<size_t>(first_joint - links.begin());
+  const auto offset = static_cast<size_t>(links.data() - impl_->islands.links(0).data());
   return {.bodies = bodies,
-          .contacts = links.first(num_contacts),
+          .contacts = std::span(impl_->island_pairs).subspan(offset, num_contacts),
           .joints = static_cast<uint32_t>(links.size() - num_contacts),
           .asleep = first.asleep,
           .sleep_timer = static_cast<float>(first.sleep_count) * impl_->dt};

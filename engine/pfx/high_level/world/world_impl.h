@@ -80,6 +80,7 @@ struct World::Impl {
   Islands islands;
   std::vector<Link> island_links;           // of contacts, then of joints
   std::vector<uint32_t> island_link_pairs;  // index into pairs, by link
+  std::vector<uint32_t> island_pairs;       // of contacts, island by island, for IslandView
 
   // Joints
   JointStore joint_store;
@@ -107,6 +108,7 @@ struct World::Impl {
   void linkIslands();
   QueryScene queryScene();             // for queries about the bodies as they are now
   void needSolverBody(uint32_t body);  // the solver will work on it
+  void listIslandPairs();
   void wake(uint32_t body);            // and its whole island
   void wakeNeighbours(uint32_t body);  // everything that it touches
   void revivePairs();

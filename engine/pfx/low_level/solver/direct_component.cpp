@@ -12,18 +12,18 @@ namespace {
 constexpr int kMaxIterations = 12;  // solves a sub-step; two are the rule, changes of limits take the rest
 
 // Iterations end where rounding no longer lets the residual fall by this factor.
-constexpr double kStagnation = 0.5;
+constexpr double kStagnation = 0.9;
 
-// What the diagonal is enlarged by: enough to make the factor exist, too little to be seen. Rows of a closed component
-// may depend on each other; there it also decides how loads are shared, and errors of the position below the slop,
-// which rounding of the poses makes and no force can remove, count as none.
+// What the diagonal is enlarged by: enough to make the factor exist, too little to be seen. Rows of a closed
+// component may depend on each other; there it also decides how loads are shared, and errors of the position
+// below the slop, which rounding of the poses makes and no force can remove, count as none.
 constexpr double kOpenRegularization = 1e-9;
-constexpr double kClosedRegularization = 1e-5;
+constexpr double kClosedRegularization = 1e-6;
 constexpr double kClosedSlop = 1e-6;
 
-// From the first ratio of h^2 |K| to the inertia on (see stiffnessRatio), a component takes damped sub-steps with the
-// geometric stiffness of those bodies for which it is more than a tenth of the inertia, until it falls below the second.
-// Below, leapfrog resolves every vibration and conserves energy.
+// From the first ratio of h^2 |K| to the inertia on (see stiffnessRatio), a component takes damped sub-steps
+// with the geometric stiffness of those bodies for which it is more than a tenth of the inertia, until it
+// falls below the second. Below, leapfrog resolves every vibration and conserves energy.
 constexpr double kUnresolved = 1.0;
 constexpr double kResolvedAgain = 0.05;
 constexpr double kStiffnessShare = 0.1;
@@ -60,7 +60,8 @@ bool DirectComponent::build(std::span<const JointConstraint> joints, uint64_t ma
   std::sort(body_index_.begin(), body_index_.end());
   body_index_.erase(std::unique(body_index_.begin(), body_index_.end()), body_index_.end());
   const auto local = [&](uint32_t body) {
-    return static_cast<uint32_t>(std::lower_bound(body_index_.begin(), body_index_.end(), body) - body_index_.begin());
+    return static_cast<uint32_t>(std::lower_bound(body_index_.begin(), body_index_.end(), body) -
+                                 body_index_.begin());
   };
   joints_.clear();
   std::vector<JointEnds> ends;
@@ -77,7 +78,8 @@ bool DirectComponent::build(std::span<const JointConstraint> joints, uint64_t ma
     joints_.push_back(j);
     ends.push_back({{j.body[0], j.body[1]}, {j.moves[0], j.moves[1]}});
   }
-  if (!buildDirectStructure(ends, static_cast<uint32_t>(body_index_.size()), max_products, structure_)) return false;
+  if (!buildDirectStructure(ends, static_cast<uint32_t>(body_index_.size()), max_products, structure_))
+    return false;
 
   const size_t n = joints_.size();
   closed_ = n > static_cast<size_t>(std::count(moved.begin(), moved.end(), 1));
@@ -170,8 +172,9 @@ void DirectComponent::solve() {
   solveDirect<6>(structure_, blocks, x_);
 }
 
-// Right-hand side; returns the worst residual over its tolerance. What the regularisation lets through is asked for
-// only up to the regularised system's own solution, so that impulses do not grow from sub-step to sub-step.
+// Right-hand side; returns the worst residual over its tolerance. What the regularisation lets through is
+// asked for only up to the regularised system's own solution, so that impulses do not grow from sub-step to
+// sub-step.
 double DirectComponent::fillResiduals(const DirectSubstep& s, bool velocity_only) {
   const double regularization = closed_ ? kClosedRegularization : kOpenRegularization;
   double worst = 0.0;
@@ -213,7 +216,8 @@ bool DirectComponent::update(bool velocity_only, bool first) {
   return changed;
 }
 
-// Newton's method on the positions at the end of the sub-step, with one factor as long as the rows stay the same.
+// Newton's method on the positions at the end of the sub-step, with one factor as long as the rows stay the
+// same.
 void DirectComponent::holdPositions(const DirectSubstep& s) {
   double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
@@ -334,8 +338,8 @@ void DirectComponent::store(std::span<SolverBody> bodies, std::span<const uint32
   }
 }
 
-// The bodies start a sub-step with the impulses of the last one (see substep.h), joints included. Those of joints have
-// to follow the levers: a force that lags behind a swinging body would feed it energy.
+// The bodies start a sub-step with the impulses of the last one (see substep.h), joints included. Those of
+// joints have to follow the levers: a force that lags behind a swinging body would feed it energy.
 void DirectComponent::startSubstep(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index) {
   load(bodies, solver_index);
   if (!started_) {

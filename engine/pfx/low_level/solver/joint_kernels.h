@@ -1,5 +1,5 @@
-// The soft joint solver's inner loops, chosen once by processor: sequential impulses over batches of eight joints
-// that share no writable body.
+// The soft joint solver's inner loops, chosen once by processor: sequential impulses over batches of eight
+// joints that share no writable body.
 #pragma once
 
 #include "pfx/base_level/constraint/joint_rows.h"

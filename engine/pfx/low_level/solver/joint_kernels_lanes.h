@@ -41,7 +41,8 @@ inline V8 solve(const S8& k, const V8& v) {
   const F8 a = k.yy * k.zz - k.yz * k.yz, b = k.xz * k.yz - k.xy * k.zz, c = k.xy * k.yz - k.xz * k.yy;
   const F8 determinant = k.xx * a + k.xy * b + k.xz * c;
   const F8 inverse = (F8::set(1.0f) / max(determinant, F8::set(1e-30f))) & (determinant > F8::zero());
-  const S8 adjugate = {a, b, c, k.xx * k.zz - k.xz * k.xz, k.xy * k.xz - k.xx * k.yz, k.xx * k.yy - k.xy * k.xy};
+  const S8 adjugate = {
+      a, b, c, k.xx * k.zz - k.xz * k.xz, k.xy * k.xz - k.xx * k.yz, k.xx * k.yy - k.xy * k.xy};
   return inverse * (adjugate * v);
 }
 
@@ -77,8 +78,10 @@ inline void solvePoint(JointLanes& j, const JointSolveParams& params, bool with_
 inline void solveAxis(JointLanes& j, JointAxisRows& r, const JointSolveParams& params, bool with_position) {
   const F8 zero = F8::zero(), one = F8::set(1.0f), two = F8::set(2.0f);
   const V8 linear = V8::load(r.linear), ja = V8::load(r.angular_a), jb = V8::load(r.angular_b);
-  const F8 speed = dot(linear, j.b.velocity.v - j.a.velocity.v) + dot(jb, j.b.velocity.w) + dot(ja, j.a.velocity.w);
-  const F8 value = F8::load(r.value) + dot(linear, j.mb.dp - j.ma.dp) + two * dot(jb, j.mb.u) + two * dot(ja, j.ma.u);
+  const F8 speed =
+      dot(linear, j.b.velocity.v - j.a.velocity.v) + dot(jb, j.b.velocity.w) + dot(ja, j.a.velocity.w);
+  const F8 value =
+      F8::load(r.value) + dot(linear, j.mb.dp - j.ma.dp) + two * dot(jb, j.mb.u) + two * dot(ja, j.ma.u);
   const F8 lower = F8::load(r.lower), upper = F8::load(r.upper), middle = F8::set(0.5f) * (lower + upper);
   const F8 at_lower = value < middle;
   const F8 error = select(at_lower, value - lower, value - upper);  // towards the nearer limit

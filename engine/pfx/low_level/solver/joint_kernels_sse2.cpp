@@ -3,6 +3,7 @@
 
 namespace pfx {
 
-const JointKernels kJointKernelsSse2 = {PFX_LANES::warmStartJoints, PFX_LANES::pushJoints, PFX_LANES::relaxJoints};
+const JointKernels kJointKernelsSse2 = {PFX_LANES::warmStartJoints, PFX_LANES::pushJoints,
+                                        PFX_LANES::relaxJoints};
 
 }  // namespace pfx

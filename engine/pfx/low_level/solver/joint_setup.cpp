@@ -36,7 +36,8 @@ void forAxisRows(const Joint& j, Fn&& fn) {
   }
 }
 
-void fillPoint(const Joint& j, const JointSide& a, const JointSide& b, float h, bool warm_start, const JointLane& to) {
+void fillPoint(const Joint& j, const JointSide& a, const JointSide& b, float h, bool warm_start,
+               const JointLane& to) {
   JointBatch& batch = to.batch;
   const Vec3d arm_a = a.pose.orientation * j.anchor_a.cast<double>();
   const Vec3d arm_b = b.pose.orientation * j.anchor_b.cast<double>();
@@ -74,7 +75,8 @@ bool hasPointPart(const Joint& j) {
   if (j.kind == JointKind::Distance || j.kind == JointKind::Gear) return false;
   for (int i = 0; i < 3; ++i) {
     const AxisConstraint& c = j.axis[i];
-    if (!isFixed(c) || c.lower != 0.0f || c.weight != j.axis[0].weight || c.bias != j.axis[0].bias) return false;
+    if (!isFixed(c) || c.lower != 0.0f || c.weight != j.axis[0].weight || c.bias != j.axis[0].bias)
+      return false;
   }
   return j.axis[0].weight > 0.0f;
 }
@@ -100,7 +102,8 @@ void fillJointLane(const Joint& j, const JointSide& a, const JointSide& b, float
     setLane(r.linear, to.lane, linear);
     setLane(r.angular_a, to.lane, angular_a);
     setLane(r.angular_b, to.lane, angular_b);
-    const double mobility = (a.inv_mass + b.inv_mass) * linear.squaredNorm() + angular_a.dot(a.inv_inertia * angular_a) +
+    const double mobility = (a.inv_mass + b.inv_mass) * linear.squaredNorm() +
+                            angular_a.dot(a.inv_inertia * angular_a) +
                             angular_b.dot(b.inv_inertia * angular_b);
     r.mass[to.lane] = mobility > 1e-30 ? static_cast<float>(c.weight / mobility) : 0.0f;
     r.value[to.lane] = static_cast<float>(l.coordinates.value[axis]);

@@ -26,14 +26,19 @@ JointSide makeSide(const RigidState& state, const SolverBody& body, bool writabl
 
 }  // namespace
 
+void SoftJoints::add(const SoftJoint& joint) {
+  SoftJoint& j = joints_.emplace_back(joint);
+  j.num_rows = numAxisRows(*joint.constraint.joint);
+  j.has_point = hasPointPart(*joint.constraint.joint);
+}
+
 void SoftJoints::addGroup(std::span<const uint32_t> links, bool serial) {
   // Joints with the same rows go into the same batches, as far as there are enough of them.
   sorted_.assign(links.begin(), links.end());
-  const auto shape = [&](uint32_t i) {
-    const Joint& j = *joints_[i].constraint.joint;
-    return 2 * numAxisRows(j) + (hasPointPart(j) ? 1 : 0);
-  };
-  std::stable_sort(sorted_.begin(), sorted_.end(), [&](uint32_t a, uint32_t b) { return shape(a) < shape(b); });
+  const auto shape = [&](uint32_t i) { return 2 * joints_[i].num_rows + (joints_[i].has_point ? 1u : 0u); };
+  const auto before = [&](uint32_t a, uint32_t b) { return shape(a) < shape(b); };
+  if (!std::is_sorted(sorted_.begin(), sorted_.end(), before))
+    std::stable_sort(sorted_.begin(), sorted_.end(), before);
   const uint32_t begin = static_cast<uint32_t>(lanes_.size() / kRowLanes);
   for (uint32_t link : sorted_) {
     lanes_.push_back(&joints_[link]);
@@ -53,7 +58,7 @@ void SoftJoints::makeBatches() {
   for (size_t b = 0; b < batches_.size(); ++b) {
     uint32_t most = 0;
     for (int lane = 0; lane < kRowLanes; ++lane)
-      if (const SoftJoint* j = lanes_[b * kRowLanes + lane]) most = std::max(most, numAxisRows(*j->constraint.joint));
+      if (const SoftJoint* j = lanes_[b * kRowLanes + lane]) most = std::max(most, j->num_rows);
     batches_[b].first_row = num_rows;
     batches_[b].num_rows = most;
     num_rows += most;
@@ -62,7 +67,8 @@ void SoftJoints::makeBatches() {
 }
 
 void SoftJoints::prepare(std::span<const RigidState> states, std::span<const uint8_t> is_dynamic,
-                         std::span<const SolverBody> bodies, const SoftJointParams& params, TaskManager& tasks) {
+                         std::span<const SolverBody> bodies, const SoftJointParams& params,
+                         TaskManager& tasks) {
   params_ = params;
   kernels_ = &jointKernels(params.simd);
   solve_params_ = {makeSoftness(kFrequency / params.h, kDampingRatio, params.h), 1.0f / params.h};
@@ -87,8 +93,8 @@ void SoftJoints::prepare(std::span<const RigidState> states, std::span<const uin
         batch.writable_a |= uint32_t(c.writable_a) << lane;
         batch.writable_b |= uint32_t(c.writable_b) << lane;
         fillJointLane(*c.joint, makeSide(states[c.body_a], bodies[j->solver_a], c.writable_a),
-                      makeSide(states[c.body_b], bodies[j->solver_b], c.writable_b), params.h, params.warm_start,
-                      {batch, rows, lane});
+                      makeSide(states[c.body_b], bodies[j->solver_b], c.writable_b), params.h,
+                      params.warm_start, {batch, rows, lane});
       }
     }
   });
@@ -114,7 +120,9 @@ void SoftJoints::end(std::span<const RigidState> states, TaskManager& tasks) {
       const auto rows = std::span(rows_).subspan(batch.first_row, batch.num_rows);
       for (int lane = 0; lane < kRowLanes; ++lane) {
         const SoftJoint* j = lanes_[size_t(b) * kRowLanes + lane];
-        if (j) storeJointForces({batch, rows, lane}, states[j->constraint.body_a], params_.h, *j->constraint.joint);
+        if (j)
+          storeJointForces({batch, rows, lane}, states[j->constraint.body_a], params_.h,
+                           *j->constraint.joint);
       }
     }
   });

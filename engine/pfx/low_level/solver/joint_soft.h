@@ -1,6 +1,8 @@
-// Soft joints: components with too many loops for the direct solver, by sequential impulses eight joints wide.
+// Soft joints: components with too many loops for the direct solver, by sequential impulses eight joints
+// wide.
 //
-// The same scheme as for contacts: stiffness tied to the sub-step, a coloured graph, a relax pass. See soft_step.h.
+// The same scheme as for contacts: stiffness tied to the sub-step, a coloured graph, a relax pass. See
+// soft_step.h.
 #pragma once
 
 #include <span>
@@ -26,19 +28,23 @@ struct SoftJointParams {
 struct SoftJoint {
   JointConstraint constraint;
   uint32_t solver_a = 0, solver_b = 0;
+  uint32_t num_rows = 0;   // for single axes
+  bool has_point = false;  // see joint_setup.h; both are set by SoftJoints::add
 };
 
 class SoftJoints {
  public:
   void clear() { joints_.clear(); }
-  void add(const SoftJoint& joint) { joints_.push_back(joint); }
+  void add(const SoftJoint& joint);
   bool empty() const { return joints_.empty(); }
 
   // Colours the joints and fills the batches. `bodies` as in SoftStep::prepare.
   void prepare(std::span<const RigidState> states, std::span<const uint8_t> is_dynamic,
                std::span<const SolverBody> bodies, const SoftJointParams& params, TaskManager& tasks);
 
-  void warmStart(std::span<SolverBody> bodies, TaskManager& tasks) { run(kernels_->warm_start, bodies, tasks); }
+  void warmStart(std::span<SolverBody> bodies, TaskManager& tasks) {
+    run(kernels_->warm_start, bodies, tasks);
+  }
   void push(std::span<SolverBody> bodies, TaskManager& tasks) { run(kernels_->push, bodies, tasks); }
   void relax(std::span<SolverBody> bodies, TaskManager& tasks) { run(kernels_->relax, bodies, tasks); }
 

@@ -27,14 +27,16 @@ void JointStep::add(JointComponent& component) {
 }
 
 void JointStep::prepare(std::span<const RigidState> states, std::span<const uint8_t> is_dynamic,
-                        std::span<const SolverBody> bodies, const SoftJointParams& params, TaskManager& tasks) {
+                        std::span<const SolverBody> bodies, const SoftJointParams& params,
+                        TaskManager& tasks) {
   for (const JointComponent* c : components_) {
     if (c->is_direct) continue;
     const auto solver = [&](uint32_t body) {
       const auto at = std::lower_bound(c->bodies.begin(), c->bodies.end(), body);
       return c->solver_index[static_cast<size_t>(at - c->bodies.begin())];
     };
-    for (const JointConstraint& j : c->joints) soft_.add({j, solver(j.body_a), solver(j.body_b)});
+    for (const JointConstraint& j : c->joints)
+      soft_.add({.constraint = j, .solver_a = solver(j.body_a), .solver_b = solver(j.body_b)});
   }
   if (!soft_.empty()) soft_.prepare(states, is_dynamic, bodies, params, tasks);
 }

@@ -17,8 +17,8 @@ class JointStep {
   bool empty() const { return components_.empty(); }
   std::span<JointComponent* const> components() { return components_; }
 
-  // Takes over what the components need of the step; solver_index of the components is set, and direct components have
-  // begun. `bodies` as in SoftStep::prepare.
+  // Takes over what the components need of the step; solver_index of the components is set, and direct
+  // components have begun. `bodies` as in SoftStep::prepare.
   void prepare(std::span<const RigidState> states, std::span<const uint8_t> is_dynamic,
                std::span<const SolverBody> bodies, const SoftJointParams& params, TaskManager& tasks);
 

@@ -61,7 +61,8 @@ TEST(JointCoordinates, gearsCountWholeTurns) {
   const TwoBodies s;
   Joint j = makeGearJoint(s.a, s.b, {.axis_a = -Vec3::UnitX(), .axis_b = Vec3::UnitZ(), .ratio = 2.0f});
   for (int i = 1; i <= 40; ++i) {
-    const TransformDouble a{Vec3d::Zero(), turn(0.3 * i, -Vec3d::UnitX())}, b{Vec3d::Zero(), turn(-0.6 * i, Vec3d::UnitZ())};
+    const TransformDouble a{Vec3d::Zero(), turn(0.3 * i, -Vec3d::UnitX())},
+        b{Vec3d::Zero(), turn(-0.6 * i, Vec3d::UnitZ())};
     const GearAngles angles = gearAngles(j, a, b);
     EXPECT_NEAR(angles.a, 0.3 * i, 1e-5);
     EXPECT_NEAR(angles.b, -0.6 * i, 1e-5);
@@ -103,9 +104,11 @@ TEST(JointCoordinates, ratesAgreeWithFiniteDifferences) {
   off.position += Vec3d(0.1, 0.05, -0.2);
   expectExactRates(makeSliderJoint(s.a, s.b, {.direction = Vec3(1, 0, 1)}), a, off, 1e-6);
   expectExactRates(makeDistanceJoint(s.a, s.b, {.anchor_point_b = Vec3(0, 1, 2)}), a, off, 1e-6);
-  expectExactRates(makeGearJoint(s.a, s.b, {.axis_a = Vec3::UnitX(), .axis_b = Vec3::UnitY(), .ratio = 3}), a, b, 1e-6);
+  expectExactRates(makeGearJoint(s.a, s.b, {.axis_a = Vec3::UnitX(), .axis_b = Vec3::UnitY(), .ratio = 3}), a,
+                   b, 1e-6);
   off.orientation = turn(0.7, Vec3d(1, 0, 0)) * off.orientation;
-  expectExactRates(makeHingeJoint(s.a, s.b, {.axis = Vec3::UnitX(), .lower_angle = -1, .upper_angle = 1}), a, off, 1e-6);
+  expectExactRates(makeHingeJoint(s.a, s.b, {.axis = Vec3::UnitX(), .lower_angle = -1, .upper_angle = 1}), a,
+                   off, 1e-6);
   const TransformDouble swung{off.position, turn(0.8, Vec3d(0, 1, 2)) * off.orientation};
   expectExactRates(makeSwingTwistJoint(s.a, s.b, {.twist_axis = Vec3::UnitX()}), a, swung, 1e-6);
 }

@@ -10,7 +10,8 @@ namespace {
 constexpr float kDt = 1.0f / 60.0f;
 
 BodyId addBox(World& world, const Vec3& at, MotionType type = MotionType::Active) {
-  return world.addBody({.pose = {.position = at}, .motion_type = type, .shapes = {{Box{Vec3::Constant(0.5f)}}}});
+  return world.addBody(
+      {.pose = {.position = at}, .motion_type = type, .shapes = {{Box{Vec3::Constant(0.5f)}}}});
 }
 
 struct Hanging {
@@ -18,7 +19,9 @@ struct Hanging {
   BodyId post = addBox(world, Vec3(0, 5, 0), MotionType::Fixed);
   BodyId box = addBox(world, Vec3(0, 3.5f, 0));
   explicit Hanging(const WorldDef& def = {}) : world(def) {}
-  JointId join(const JointParams& params) { return world.addJoint({.name = "j", .body_a = post, .body_b = box, .params = params}); }
+  JointId join(const JointParams& params) {
+    return world.addJoint({.name = "j", .body_a = post, .body_b = box, .params = params});
+  }
 };
 
 TEST(WorldJoints, aHandleDiesWithItsJointOrItsBody) {
@@ -86,7 +89,8 @@ TEST(WorldJoints, aJointMayChangeItsKind) {
   const JointId id = h.join(FixedJointParams{.anchor_point = Vec3(0, 4.25f, 0)});
   for (int i = 0; i < 30; ++i) h.world.step(kDt);
   const auto states = h.world.states();
-  h.world.joint(id) = makeSliderJoint(states[h.post.index], states[h.box.index], {.direction = Vec3::UnitY()});
+  h.world.joint(id) =
+      makeSliderJoint(states[h.post.index], states[h.box.index], {.direction = Vec3::UnitY()});
   for (int i = 0; i < 30; ++i) h.world.step(kDt);
   EXPECT_NEAR(h.world.states()[h.box.index].position.y(), 3.5f - 0.5f * 9.8f * 0.25f, 1e-2f);
 }
@@ -95,9 +99,10 @@ TEST(WorldJoints, islandsOfJointedBodiesSleepAndWakeTogether) {
   World world({.sleeping = true, .sleep_steps = 30});
   const BodyId post = addBox(world, Vec3(0, 8, 0), MotionType::Fixed);
   const BodyId upper = addBox(world, Vec3(0, 6.5f, 0)), lower = addBox(world, Vec3(0, 5, 0));
-  world.addJoint({.body_a = post, .body_b = upper, .params = BallJointParams{.anchor_point = Vec3(0, 7.25f, 0)}});
-  const JointId joint =
-      world.addJoint({.body_a = upper, .body_b = lower, .params = BallJointParams{.anchor_point = Vec3(0, 5.75f, 0)}});
+  world.addJoint(
+      {.body_a = post, .body_b = upper, .params = BallJointParams{.anchor_point = Vec3(0, 7.25f, 0)}});
+  const JointId joint = world.addJoint(
+      {.body_a = upper, .body_b = lower, .params = BallJointParams{.anchor_point = Vec3(0, 5.75f, 0)}});
   for (int i = 0; i < 60; ++i) world.step(kDt);
   EXPECT_EQ(world.counts().awake, 0u);
   world.state(upper).linear_velocity = Vec3(1, 0, 0);
@@ -130,13 +135,17 @@ TEST(WorldJoints, gearsKeepTheirRatio) {
   const BodyId a = addBox(world, Vec3(-2, 0, 0)), b = addBox(world, Vec3(2, 0, 0));
   const Vec3 z = Vec3::UnitZ();
   for (const auto& [wheel, x] : {std::pair(a, -2.0f), std::pair(b, 2.0f)})
-    world.addJoint({.body_a = post, .body_b = wheel, .params = HingeJointParams{.anchor_point = Vec3(x, 0, 0), .axis = z}});
-  const JointId gear =
-      world.addJoint({.body_a = a, .body_b = b, .params = GearJointParams{.axis_a = z, .axis_b = z, .ratio = 20.0f}});
+    world.addJoint({.body_a = post,
+                    .body_b = wheel,
+                    .params = HingeJointParams{.anchor_point = Vec3(x, 0, 0), .axis = z}});
+  const JointId gear = world.addJoint(
+      {.body_a = a, .body_b = b, .params = GearJointParams{.axis_a = z, .axis_b = z, .ratio = 20.0f}});
   world.state(a).angular_velocity = Vec3(0, 0, 0.5f);
   for (int i = 0; i < 600; ++i) world.step(kDt);
-  EXPECT_NEAR(world.states()[b.index].angular_velocity.z() / world.states()[a.index].angular_velocity.z(), -20.0f, 0.02f);
-  EXPECT_LT(world.jointError(gear.index).angle, 1e-2);  // after ten turns of B a float holds 1e-5 rad of each angle
+  EXPECT_NEAR(world.states()[b.index].angular_velocity.z() / world.states()[a.index].angular_velocity.z(),
+              -20.0f, 0.02f);
+  EXPECT_LT(world.jointError(gear.index).angle,
+            1e-2);  // after ten turns of B a float holds 1e-5 rad of each angle
 }
 
 TEST(WorldJoints, aDraggedBodyFollowsAndLetsGo) {

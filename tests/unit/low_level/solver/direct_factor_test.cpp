@@ -31,7 +31,8 @@ void expectSameAsDense(const std::vector<JointEnds>& joints, uint32_t num_bodies
   for (size_t p = 0; p < n; ++p) {
     for (int r = 0; r < N; ++r) {
       x[p * N + r] = b[s.order[p] * N + r] = number(random);
-      for (int c = 0; c < N; ++c) diagonal[(p * N + r) * N + c] = dense(s.order[p] * N + r, s.order[p] * N + c);
+      for (int c = 0; c < N; ++c)
+        diagonal[(p * N + r) * N + c] = dense(s.order[p] * N + r, s.order[p] * N + c);
     }
     for (uint32_t e = s.column_begin[p]; e < s.column_begin[p + 1]; ++e)
       for (int r = 0; r < N; ++r)
