@@ -4,8 +4,13 @@
 
 #include "compat/base.h"
 #include "compat/broadphase.h"
+#include "compat/contact.h"
+#include "compat/island.h"
+#include "compat/joint.h"
 #include "compat/mesh.h"
+#include "compat/ray.h"
 #include "compat/rigid_body.h"
 #include "compat/shape.h"
+#include "compat/solver.h"
 #include "compat/sort.h"
 #include "compat/task.h"
