@@ -47,7 +47,7 @@ void limit(PfxJointConstraint& axis, PfxFloat lower, PfxFloat upper, PfxFloat da
 
 void PfxJointConstraint::reset() {
   m_lock = SCE_PFX_JOINT_LOCK_FREE;
-  m_warmStarting = 0;
+  m_warmStarting = 1;
   m_movableLowerLimit = m_movableUpperLimit = 0.0f;
   m_bias = 0.2f;
   m_weight = 1.0f;

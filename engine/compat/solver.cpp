@@ -75,6 +75,10 @@ pfx::Joint nativeJoint(const PfxJoint& j) {
   joint.anchor_a = native(j.m_anchorA), joint.anchor_b = native(j.m_anchorB);
   joint.frame_a = pfx::Quat(native(j.m_frameA)).normalized();
   joint.frame_b = pfx::Quat(native(j.m_frameB)).normalized();
+  for (int i = 0; i < 6; ++i) {  // rows are made for axes on which something can act
+    joint.axis[i].lock = static_cast<pfx::JointLock>(SCE_PFX_MIN(j.m_constraints[i].m_lock, SCE_PFX_JOINT_LOCK_FIX));
+    joint.axis[i].damping = j.m_constraints[i].m_damping;
+  }
   return joint;
 }
 
