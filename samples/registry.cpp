@@ -5,7 +5,8 @@
 namespace samples {
 namespace {
 
-constexpr std::array kSamples = {simpleScenes, stableScenes, sleepScenes, motionTypeScenes};
+constexpr std::array kSamples = {simpleScenes, stableScenes,    sleepScenes,    motionTypeScenes,
+                                 jointScenes,  serializeScenes, xmlImportScenes};
 
 std::vector<SceneEntry> allScenes() {
   std::vector<SceneEntry> all;

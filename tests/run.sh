@@ -1,15 +1,17 @@
 #!/usr/bin/env bash
-# Builds Vitrine, installing what is missing, and runs every test: the release build with its golden images, then the
-# engine under the address, undefined-behaviour and thread sanitizers. --quick leaves the sanitizers out.
+# Builds Vitrine, installing what is missing, and runs every test of the release build, with the golden images.
+# --full, and wherever CI=true: also the engine compiled in other ways, which must give the same bits, and under the
+# address, undefined-behaviour and thread sanitizers.
 set -u
 # shellcheck source=samples/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../samples/setup.sh"
 
-quick=no
+full=no
+[ "${CI:-}" = true ] && full=yes
 case "${1:-}" in
   "") ;;
-  --quick) quick=yes ;;
-  -h | --help) sed -n "2,3s/^# //p" "${BASH_SOURCE[0]}"; exit 0 ;;
+  --full) full=yes ;;
+  -h | --help) sed -n "2,4s/^# //p" "${BASH_SOURCE[0]}"; exit 0 ;;
   *) fail "tests/run.sh: unknown argument '$1'; see --help" 2 ;;
 esac
 
@@ -29,10 +31,12 @@ runTests() {
 
 needPackages "${build_packages[@]}" "${test_packages[@]}" -- "${build_packages_optional[@]}" "${test_packages_optional[@]}"
 
-buildPreset release all -DVITRINE_TESTS=ON -DVITRINE_VIEWER=ON
+variants=OFF
+[ "$full" = yes ] && variants=ON
+buildPreset release all -DVITRINE_TESTS=ON -DVITRINE_VIEWER=ON -DVITRINE_VARIANTS=$variants
 runTests release
 
-if [ "$quick" = no ]; then
+if [ "$full" = yes ]; then
   # The engine alone. The address sanitizer has every unit test and foreign input to look at, the thread sanitizer what
   # shares work between threads.
   buildPreset asan-ubsan sanitized_tests -DVITRINE_VIEWER=OFF

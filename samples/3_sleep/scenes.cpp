@@ -36,7 +36,7 @@ std::vector<SceneEntry> sleepScenes() {
   scenes.push_back({.sample = "3_sleep",
                     .name = "walls",
                     .shows = "252 boxes in nine islands sleep; a ball wakes the one that it hits and no other",
-                    .camera = {.target = Vec3(0.0f, 2.0f, 0.0f), .distance = 34.0f, .yaw_deg = 38.0f, .pitch_deg = 24.0f},
+                    .camera = {.target = Vec3(0.0f, 1.2f, 0.0f), .distance = 29.0f, .yaw_deg = 42.0f, .pitch_deg = 26.0f},
                     .frames = {0, 299, 360},
                     .world = world,
                     .make = [] { return std::unique_ptr<Scene>(new Walls); }});

@@ -41,6 +41,36 @@ struct Landscape final : Scene {
   }
 };
 
+// Boxes hung one below the other; the lowest one is given a push.
+struct Joints final : Scene {
+  void build(World& world) override {
+    constexpr int kBoxes = 10;
+    const BodyId ground = addGround(world);
+    BodyId below = {};
+    for (int i = 0; i < kBoxes; ++i) {
+      const float y = 3.0f + 2.5f * static_cast<float>(i);
+      BodyDef def{.name = "box " + std::to_string(i), .pose = {.position = Vec3(0.0f, y, 0.0f)}};
+      def.shapes = {shape(Box{Vec3::Ones()})};
+      if (i == 0) {
+        def.linear_velocity = Vec3(0.0f, 0.0f, 5.0f);
+        def.linear_damping = def.angular_damping = 0.05f;
+      }
+      const BodyId box = world.addBody(def);
+      if (below) join(world, box, below, y - 1.25f);
+      below = box;
+    }
+    join(world, ground, below, 3.0f + 2.5f * static_cast<float>(kBoxes) - 1.25f);
+  }
+
+  static void join(World& world, BodyId upper, BodyId lower, float y) {
+    world.addJoint({.body_a = upper,
+                    .body_b = lower,
+                    .params = SwingTwistJointParams{.anchor_point = Vec3(0.0f, y, 0.0f),
+                                                    .twist_axis = Vec3::UnitY(),
+                                                    .damping = 0.1f}});
+  }
+};
+
 struct Tower final : Scene {
   void build(World& world) override {
     addGround(world);
@@ -72,24 +102,31 @@ std::vector<SceneEntry> basicScenes(std::string_view sample, const WorldDef& wor
        .world = world,
        .make = make<Primitives>},
       {.sample = sample,
+       .name = "joints",
+       .shows = "ten boxes hang from the ground body and swing; no joint stretches",
+       .camera = {.target = Vec3(0.0f, 15.0f, 0.0f), .distance = 46.0f, .yaw_deg = 60.0f, .pitch_deg = 8.0f},
+       .frames = {0, 60, 240},
+       .world = world,
+       .make = make<Joints>},
+      {.sample = sample,
        .name = "tower",
        .shows = "192 boxes in eight rings carry each other",
        .camera = {.target = Vec3(0.0f, 6.5f, 0.0f), .distance = 42.0f, .yaw_deg = 25.0f, .pitch_deg = 26.0f},
-       .frames = {0, 60, 240},
+       .frames = {0, 120, 600},
        .world = world,
        .make = make<Tower>},
       {.sample = sample,
        .name = "pyramid",
        .shows = "the lowest row carries 190 boxes and does not sink",
        .camera = {.target = Vec3(0.0f, 9.0f, 0.0f), .distance = 35.0f, .yaw_deg = 32.0f, .pitch_deg = 12.0f},
-       .frames = {0, 60, 240},
+       .frames = {0, 120, 600},
        .world = world,
        .make = make<Pyramid>},
       {.sample = sample,
        .name = "landscape",
        .shows = "the same shapes on a mesh of 128 triangles: they follow its slopes and never catch on an "
                 "inner edge",
-       .camera = {.target = Vec3(0.0f, 0.0f, 0.0f), .distance = 30.0f, .yaw_deg = 28.0f, .pitch_deg = 24.0f},
+       .camera = {.target = Vec3(0.0f, 0.8f, 0.0f), .distance = 27.0f, .yaw_deg = 28.0f, .pitch_deg = 24.0f},
        .frames = {45, 100, 400},
        .world = world,
        .make = make<Landscape>},

@@ -1,7 +1,7 @@
 // ACC-05 to ACC-07: pendulums against elliptic functions and tables, at 60 Hz and 4 sub-steps.
 #include <gtest/gtest.h>
 
-#include "tests/accuracy/joint_cases.h"
+#include "tests/support/joint_cases.h"
 
 namespace pfx_test {
 namespace {
@@ -47,7 +47,8 @@ TEST(AccPendulum, theReferenceAgreesWithTheTable) {
       const double dt = c["t"][i].get<double>() - t;
       for (int k = 0; k < 64; ++k) r.advance(dt / 64);
       t += dt;
-      // The table is exact to 1e-14; a release from 179 degrees amplifies the rounding of its start a hundredfold.
+      // The table is exact to 1e-14; a release from 179 degrees amplifies the rounding of its start a
+      // hundredfold.
       EXPECT_NEAR(r.theta, c["theta"][i].get<double>(), 1e-10) << c["theta0_deg"];
     }
   }
@@ -89,7 +90,8 @@ TEST(AccPendulum, followsTheEllipticFunctionForTenSeconds) {
 }
 
 TEST(AccPendulum, errorFallsWithTheSquareOfTheSubstep) {
-  const double coarse = std::abs(swing(90.0, 4, 5.0).angle.value), fine = std::abs(swing(90.0, 64, 5.0).angle.value);
+  const double coarse = std::abs(swing(90.0, 4, 5.0).angle.value),
+               fine = std::abs(swing(90.0, 64, 5.0).angle.value);
   report("pendulum plateau, error at 64 sub-steps", fine, coarse / 8, "rad");
   EXPECT_LE(fine, coarse / 8);
 }
@@ -157,8 +159,8 @@ TEST(AccDoublePendulum, errorFallsWithTheSquareOfTheSubstep) {
   EXPECT_LE(fine, coarse / 8);
 }
 
-// ACC-06: a rod on a ball joint that circles at a constant angle, w^2 = m g d / ((I1 - I3) cos theta), with no spin of
-// the rod relative to the plane that turns with it.
+// ACC-06: a rod on a ball joint that circles at a constant angle, w^2 = m g d / ((I1 - I3) cos theta), with
+// no spin of the rod relative to the plane that turns with it.
 TEST(AccConicalPendulum, keepsItsRadiusAndItsPeriod) {
   const double theta = M_PI / 6, length = 0.5, width = 0.05, mass = 1.0;
   const double i3 = mass * width * width / 6.0, i1 = mass * (length * length + width * width) / 12.0;

@@ -45,7 +45,8 @@ Image drawList(Backend backend, Change change) {
     std::unique_ptr<GlContext> context;
     std::unique_ptr<Renderer> renderer;
   };
-  static std::map<Backend, Studio> studios;
+  // Never destroyed: at exit the drivers are gone before it would be its turn.
+  static auto& studios = *new std::map<Backend, Studio>;
   Studio& studio = studios[backend];
   if (!studio.renderer) {
     studio.context = makeContext({.backend = backend});

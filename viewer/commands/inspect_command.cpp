@@ -38,7 +38,7 @@ ordered_json islandsJson(const pfx::World& world) {
     islands.push_back({{"id", i},
                        {"bodies", std::move(bodies)},
                        {"contacts", view.contacts.size()},
-                       {"joints", 0},
+                       {"joints", view.joints},
                        {"asleep", view.asleep},
                        {"sleep_timer", view.sleep_timer},
                        {"why", sleep.why},

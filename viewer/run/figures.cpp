@@ -30,6 +30,14 @@ double deepestContact(const pfx::World& world) {
   return deepest;
 }
 
+double widestJoint(const pfx::World& world) {
+  double widest = 0.0;
+  const auto links = world.jointLinks();
+  for (uint32_t i = 0; i < links.size(); ++i)
+    if (links[i].exists) widest = std::max(widest, world.jointError(i).distance);
+  return widest;
+}
+
 }  // namespace
 
 Figures computeFigures(const pfx::World& world) {
@@ -40,6 +48,7 @@ Figures computeFigures(const pfx::World& world) {
   for (size_t i = 0; i < states.size(); ++i)
     if (pfx::isDynamic(states[i].motion_type)) addBody(f, states[i], bodies[i], gravity);
   f.max_penetration = deepestContact(world);
+  f.max_joint_error = widestJoint(world);
   f.counts = world.counts();
   return f;
 }

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <numeric>
 
+#include "pfx/base_level/shape/aabb.h"
+#include "pfx/high_level/scene_file/scene_file.h"
 #include "viewer/input_error.h"
 
 namespace viewer {
@@ -44,6 +46,49 @@ std::string nearestTarget(std::span<const SceneSpec> scenes, std::string_view wa
   return best;
 }
 
+class FileScene final : public samples::Scene {
+ public:
+  explicit FileScene(std::shared_ptr<const pfx::SceneDef> def) : def_(std::move(def)) {}
+  void build(pfx::World& world) override { pfx::buildScene(*def_, world); }
+
+ private:
+  std::shared_ptr<const pfx::SceneDef> def_;
+};
+
+// Far enough for the eye to see all bodies that can move, or all when none can.
+samples::CameraPose cameraAround(const pfx::World& world) {
+  pfx::Aabb moving, all;
+  for (uint32_t i = 0; i < world.states().size(); ++i) {
+    const pfx::RigidState& s = world.states()[i];
+    const pfx::Collidable& c = world.collidables()[i];
+    const pfx::Aabb box = pfx::transformedAabb(s.pose(), c.center, c.half_extent);
+    all.extend(box);
+    if (s.motion_type != pfx::MotionType::Fixed) moving.extend(box);
+  }
+  const pfx::Aabb& box = moving.min.x() <= moving.max.x() ? moving : all;
+  if (!(box.min.x() <= box.max.x())) return {};
+  constexpr float kDistances = 3.0f;  // of the eye, in radii of what it looks at
+  return {.target = box.center(), .distance = std::max(3.0f, kDistances * box.halfExtent().norm())};
+}
+
+// A trial world finds what is wrong with the scene before anything is run.
+SceneSpec sceneOfFile(const std::string& path) {
+  try {
+    const auto def = std::make_shared<const pfx::SceneDef>(pfx::readScene(std::filesystem::path(path)));
+    pfx::World trial(def->world);
+    pfx::buildScene(*def, trial);
+    return {.sample = std::filesystem::path(path).stem().string(),
+            .name = "scene",
+            .shows = path,
+            .camera = cameraAround(trial),
+            .frames = {0, 60, 240},
+            .world = def->world,
+            .make = [def] { return std::unique_ptr<samples::Scene>(new FileScene(def)); }};
+  } catch (const pfx::SceneError& e) {
+    throw InputError(e.what());
+  }
+}
+
 }  // namespace
 
 std::vector<SceneSpec> allScenes() {
@@ -64,9 +109,10 @@ std::vector<SceneSpec> findTarget(std::span<const SceneSpec> scenes, std::string
   if (!found.empty()) return found;
 
   const std::string text(target);
-  if (std::filesystem::path(text).extension() == ".xml")
-    throw InputError(
-        text + (std::filesystem::exists(text) ? ": scene files cannot be run yet" : ": no such scene file"));
+  if (std::filesystem::path(text).extension() == ".xml") {
+    if (!std::filesystem::exists(text)) throw InputError(text + ": no such scene file");
+    return {sceneOfFile(text)};
+  }
   const std::string nearest = nearestTarget(scenes, target);
   throw InputError("unknown sample or scene \"" + text + "\"" +
                    (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") +

@@ -27,8 +27,8 @@ struct SceneSpec {
 // All sample scenes, in the order of the browser.
 std::vector<SceneSpec> allScenes();
 
-// The scenes of `scenes` that TARGET names: SAMPLE or SAMPLE/SCENE. Throws InputError naming the nearest
-// known target.
+// The scenes of `scenes` that TARGET names: SAMPLE or SAMPLE/SCENE; or the scene of an .xml file. Throws InputError
+// naming the nearest known target, or the line of the file.
 std::vector<SceneSpec> findTarget(std::span<const SceneSpec> scenes, std::string_view target);
 
 // The one scene that TARGET names: SAMPLE/SCENE, or the SAMPLE of a single scene. Throws InputError when

@@ -9,6 +9,7 @@ constexpr float kVelocitySeconds = 0.25f;  // s, an arrow shows the way of this 
 constexpr float kSlowest = 0.01f;          // m/s, slower bodies get no arrow
 constexpr float kAxisLength = 0.6f;        // m
 constexpr float kNormalLength = 0.3f;      // m
+constexpr float kJointScale = 0.6f;        // m
 
 }  // namespace
 
@@ -47,6 +48,17 @@ void WorldView::addIslands(const pfx::World& world) {
   recorder_.line_width = 1.5f;
 }
 
+void WorldView::addJoints(const pfx::World& world) {
+  debug_.scale = kJointScale;
+  const auto links = world.jointLinks();
+  for (uint32_t i = 0; i < links.size(); ++i) {
+    if (!links[i].exists) continue;
+    recorder_.pick = pickId(PickKind::Joint, i);
+    debug_.renderJoint(world.joints()[i], world.states()[links[i].body_a].pose(),
+                       world.states()[links[i].body_b].pose());
+  }
+}
+
 void WorldView::add(const pfx::World& world, const Overlays& overlays) {
   const auto states = world.states();
   debug_.resetVisible(uint32_t(states.size()));
@@ -54,6 +66,7 @@ void WorldView::add(const pfx::World& world, const Overlays& overlays) {
     debug_.setVisible(body, world.isValid(world.bodyId(body)));
   debug_.renderSolids(states, world.collidables());
   if (overlays.contacts) addContacts(world);
+  if (overlays.joints) addJoints(world);
   if (overlays.islands) addIslands(world);
   recorder_.pick = 0;
   if (overlays.world) debug_.renderWorld(world.def().center, world.def().extent);

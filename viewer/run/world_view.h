@@ -20,6 +20,7 @@ class WorldView {
  private:
   void addBodyOverlays(const pfx::World& world, const Overlays& overlays);
   void addContacts(const pfx::World& world);
+  void addJoints(const pfx::World& world);
   void addIslands(const pfx::World& world);
 
   DrawList& list_;

@@ -44,11 +44,13 @@ void addBox(World& world, const Vec3& position, const Vec3& half_extent, MotionT
                  .mass = 1.0f});
 }
 
-// A wall that stands, with a ball-shaped heap of boxes that settles on top of it.
+// 64 boxes: a wall of eight rows, or one row for the world that remembers nothing, in which a wall never comes to rest
+// and so goes on finding more contacts than ever before.
 void build(World& world) {
-  addBox(world, Vec3(0.0f, -1.0f, 0.0f), Vec3(20.0f, 1.0f, 20.0f), MotionType::Fixed);
-  for (int row = 0; row < 8; ++row)
-    for (int i = 0; i < 8; ++i)
+  const int rows = world.def().pipeline == Pipeline::Simple ? 1 : 8;
+  addBox(world, Vec3(0.0f, -1.0f, 0.0f), Vec3(100.0f, 1.0f, 20.0f), MotionType::Fixed);
+  for (int row = 0; row < rows; ++row)
+    for (int i = 0; i < 64 / rows; ++i)
       addBox(world, Vec3(1.01f * static_cast<float>(i), 0.5f + static_cast<float>(row), 0.0f), Vec3::Constant(0.5f),
              MotionType::Active);
 }

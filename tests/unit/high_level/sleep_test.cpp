@@ -88,6 +88,23 @@ TEST_F(TwoColumns, AWokenColumnGoesOnFromItsOldImpulses) {
   EXPECT_NEAR(world.states()[left[2].index].position.y(), height, 2e-5f);
 }
 
+TEST_F(TwoColumns, AnIslandNamesThePairsThatHoldItTogether) {
+  addBox(world, Vec3(-5.0f, 3.02f, 0.9f));  // near the left column, and soon a pair without contact
+  run(5);
+  ASSERT_GT(world.contactPairs().size(), 6u);
+  for (uint32_t k = 0; k < world.numIslands(); ++k) {
+    const IslandView island = world.island(k);
+    for (uint32_t contact : island.contacts) {
+      const Pair& pair = world.contactPairs()[contact];
+      EXPECT_FALSE(world.manifolds(pair).empty());
+      const auto has = [&](uint32_t body) {
+        return std::find(island.bodies.begin(), island.bodies.end(), body) != island.bodies.end();
+      };
+      EXPECT_TRUE(has(pair.body_a) || has(pair.body_b));
+    }
+  }
+}
+
 TEST_F(TwoColumns, FallAsleepAgainAfterBeingWoken) {
   run(300);
   world.state(left[1]);

@@ -10,8 +10,9 @@ struct DistanceJointParams {
   Vec3 anchor_point_b = Vec3::Zero();  // m, world
   float lower_distance = 1.0f;         // m; lower above upper: the distance at the start
   float upper_distance = -1.0f;
-  float spring_frequency = 0.0f;       // Hz; above zero: a spring towards the distance at the start, within the range
-  float spring_damping = 0.0f;         // damping ratio
+  float spring_frequency =
+      0.0f;  // Hz; above zero: a spring towards the distance at the start, within the range
+  float spring_damping = 0.0f;  // damping ratio
 };
 
 Joint makeDistanceJoint(const RigidState& a, const RigidState& b, const DistanceJointParams& params);

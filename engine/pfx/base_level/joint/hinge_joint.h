@@ -10,9 +10,9 @@ struct HingeJointParams {
   Vec3 axis = Vec3::UnitX();         // world
   float lower_angle = 1.0f;          // rad; lower above upper: no limit
   float upper_angle = -1.0f;
-  float damping = 0.0f;              // of the rotation about the axis
+  float damping = 0.0f;  // of the rotation about the axis
   float bias = 1.0f;
-  JointFrame joint_frame = {};       // x: axis
+  JointFrame joint_frame = {};  // x: axis
 };
 
 Joint makeHingeJoint(const RigidState& a, const RigidState& b, const HingeJointParams& params);

@@ -1,8 +1,9 @@
 // One record for every kind of joint: six axis constraints between a frame in body A and a frame in body B.
 //
-// The first three axes are translations of anchor B along the axes of frame A, the last three rotations: twist about
-// the x axis, then the two components of the swing (see joint_coordinates.h). Each axis is free, kept in a range, or
-// fixed; kinds of joints differ in nothing else, so that a joint changes its kind by being initialised again.
+// The first three axes are translations of anchor B along the axes of frame A, the last three rotations:
+// twist about the x axis, then the two components of the swing (see joint_coordinates.h). Each axis is free,
+// kept in a range, or fixed; kinds of joints differ in nothing else, so that a joint changes its kind by
+// being initialised again.
 #pragma once
 
 #include <cstdint>
@@ -42,12 +43,12 @@ struct Joint {
   JointKind kind = JointKind::Ball;
   bool cone = false;  // axis 4 is the angle of the swing, whatever its direction, and axis 5 is not used
   AxisConstraint axis[kNumJointAxes];
-  Vec3 anchor_a = Vec3::Zero();        // m, body axes, from the centre of mass
+  Vec3 anchor_a = Vec3::Zero();  // m, body axes, from the centre of mass
   Vec3 anchor_b = Vec3::Zero();
-  Quat frame_a = Quat::Identity();     // joint axes in body axes
+  Quat frame_a = Quat::Identity();  // joint axes in body axes
   Quat frame_b = Quat::Identity();
-  float gear_ratio = 1.0f;             // Gear: turns of B for one turn of A, about their x axes, in the other sense
-  float gear_angle_a = 0.0f;           // rad, Gear: turned so far, over any number of turns
+  float gear_ratio = 1.0f;    // Gear: turns of B for one turn of A, about their x axes, in the other sense
+  float gear_angle_a = 0.0f;  // rad, Gear: turned so far, over any number of turns
   float gear_angle_b = 0.0f;
   Quat gear_zero_a = Quat::Identity();  // Gear: joint axes of A in the world where its angle is zero
   Quat gear_zero_b = Quat::Identity();
@@ -59,7 +60,8 @@ struct Joint {
 // Whether anything can act along the axis.
 constexpr bool isConstrained(const AxisConstraint& c) {
   if (!(c.weight > 0.0f)) return false;
-  return c.lock != JointLock::Free || c.damping > 0.0f || c.motor_max_force > 0.0f || c.spring_frequency > 0.0f;
+  return c.lock != JointLock::Free || c.damping > 0.0f || c.motor_max_force > 0.0f ||
+         c.spring_frequency > 0.0f;
 }
 
 }  // namespace pfx

@@ -33,7 +33,8 @@ struct Swing {
 
 Swing swingOf(const Quatd& q) {
   const double s = std::sqrt(q.x() * q.x() + q.w() * q.w());
-  if (s < 1e-12) return {q.y(), q.z(), 0.0, q.y() * q.y() + q.z() * q.z()};  // half a turn: no twist is defined
+  if (s < 1e-12)
+    return {q.y(), q.z(), 0.0, q.y() * q.y() + q.z() * q.z()};  // half a turn: no twist is defined
   const double c = q.w() / s, d = q.x() / s;
   const double y = q.y() * c - q.z() * d, z = q.z() * c + q.y() * d;
   return {y, z, s, y * y + z * z};

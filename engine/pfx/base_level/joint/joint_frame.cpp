@@ -17,7 +17,8 @@ Mat3 frameAround(const Vec3& x, const Vec3& up) {
   return m;
 }
 
-Joint placeJoint(JointKind kind, const RigidState& a, const RigidState& b, const Vec3& anchor, const Mat3& frame) {
+Joint placeJoint(JointKind kind, const RigidState& a, const RigidState& b, const Vec3& anchor,
+                 const Mat3& frame) {
   const Quat world = Quat(frame).normalized();
   Joint j;
   j.kind = kind;

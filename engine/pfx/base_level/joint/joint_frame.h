@@ -11,12 +11,13 @@ namespace pfx {
 // Columns are the joint's x, y and z axis in the world; replaces the axes that the kind asks for.
 using JointFrame = std::optional<Mat3>;
 
-// Frame whose x axis is `x` (need not be of unit length; (1, 0, 0) when it is zero) and whose y axis is as near to
-// `up` as possible. Without `up`, or with one along x, any frame around x.
+// Frame whose x axis is `x` (need not be of unit length; (1, 0, 0) when it is zero) and whose y axis is as
+// near to `up` as possible. Without `up`, or with one along x, any frame around x.
 Mat3 frameAround(const Vec3& x, const Vec3& up = Vec3::Zero());
 
 // A joint without constraints, placed at a world point with world axes.
-Joint placeJoint(JointKind kind, const RigidState& a, const RigidState& b, const Vec3& anchor, const Mat3& frame);
+Joint placeJoint(JointKind kind, const RigidState& a, const RigidState& b, const Vec3& anchor,
+                 const Mat3& frame);
 
 // Fixes axes first .. last at zero; bias 1, weight 1.
 void fixAxes(Joint& joint, int first, int last);

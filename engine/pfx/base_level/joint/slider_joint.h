@@ -10,9 +10,9 @@ struct SliderJointParams {
   Vec3 direction = Vec3::UnitX();    // world
   float lower_distance = 1.0f;       // m; lower above upper: no limit
   float upper_distance = -1.0f;
-  float damping = 0.0f;              // of the motion along the axis
+  float damping = 0.0f;  // of the motion along the axis
   float bias = 1.0f;
-  JointFrame joint_frame = {};       // x: direction
+  JointFrame joint_frame = {};  // x: direction
 };
 
 Joint makeSliderJoint(const RigidState& a, const RigidState& b, const SliderJointParams& params);

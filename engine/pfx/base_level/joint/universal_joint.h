@@ -13,9 +13,9 @@ struct UniversalJointParams {
   float swing1_upper_angle = 0.7f;
   float swing2_lower_angle = -0.7f;  // rad, about axis x first swing axis
   float swing2_upper_angle = 0.7f;
-  float damping = 0.0f;              // of the swing
+  float damping = 0.0f;  // of the swing
   float bias = 1.0f;
-  JointFrame joint_frame = {};       // x: axis, y and z: swing axes
+  JointFrame joint_frame = {};  // x: axis, y and z: swing axes
 };
 
 Joint makeUniversalJoint(const RigidState& a, const RigidState& b, const UniversalJointParams& params);

@@ -27,7 +27,13 @@ void makeProxies(World::Impl& w, std::span<const uint32_t> bodies, std::vector<B
     for (uint32_t k = r.begin; k < r.end; ++k) {
       const uint32_t i = bodies[k];
       const ContactReach reach = w.reach[i] = reachOf(w, i);
-      updateProxy(w.store.states[i], w.store.collidables[i], box, reach.resting + reach.travel, proxies[k]);
+      const RigidState& s = w.store.states[i];
+      updateProxy(s, w.store.collidables[i], box, reach.resting + reach.travel, proxies[k]);
+      if (!moves(s)) continue;
+      // The whole way of the step, so that fast bodies find what they could pass through.
+      const Vec3 way = w.dt * s.linear_velocity;
+      proxies[k].bounds.min += way.cwiseMin(0.0f);
+      proxies[k].bounds.max += way.cwiseMax(0.0f);
     }
   });
 }
@@ -59,9 +65,14 @@ void dropJointedPairs(World::Impl& w, std::vector<Pair>& pairs) {
 void begin(World::Impl& w) {
   w.refreshActive();
   w.constraints.clear();
+  for (uint32_t i : w.solved) w.solver_index[i] = kNoSolverBody;
+  w.solved.clear();
+  w.solver_index.resize(w.store.states.size(), kNoSolverBody);
   w.joint_step.clear();
   w.free_components.clear();
   w.free_bodies = w.active;
+  w.tree_is_current = false;
+  rememberPoses(w);
 }
 
 void findPairsAnew(World::Impl& w) {
@@ -76,10 +87,14 @@ void findPairsAnew(World::Impl& w) {
   for (Pair& p : w.pairs) p.contact_id = w.contacts.add();
 }
 
-void updatePairs(World::Impl& w) {
+void updateTree(World::Impl& w) {
   restChangedBodies(w);
   makeProxies(w, w.moving, w.proxies);
   w.tree.update(w.proxies, &w.tasks);
+}
+
+void updatePairs(World::Impl& w) {
+  updateTree(w);
   const auto found = w.tree.activePairs();
   w.next_pairs.assign(found.begin(), found.end());
   dropJointedPairs(w, w.next_pairs);

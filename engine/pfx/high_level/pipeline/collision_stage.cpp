@@ -42,9 +42,7 @@ void gatherConstraints(World::Impl& w) {
                                .restitution = 0.5f * (ba.restitution + bb.restitution)});
     }
   }
-  w.solver_index.assign(w.store.states.size(), kNoSolverBody);
-  for (const ContactConstraint& c : w.constraints)
-    w.solver_index[c.solver_a] = w.solver_index[c.solver_b] = 0;
+  for (const ContactConstraint& c : w.constraints) w.needSolverBody(c.solver_a), w.needSolverBody(c.solver_b);
   w.free_bodies.clear();
   for (uint32_t i : w.active)
     if (w.solver_index[i] == kNoSolverBody) w.free_bodies.push_back(i);

@@ -29,15 +29,16 @@ void listConstraints(World::Impl& w) {
 void assignSolver(World::Impl& w, JointComponent& c) {
   const auto is = [&](auto&& condition) { return std::any_of(c.bodies.begin(), c.bodies.end(), condition); };
   if (!is([&](uint32_t i) { return isAwake(w.store.states[i]); })) return;
-  const bool touched =
-      is([&](uint32_t i) { return isDynamic(w.store.states[i].motion_type) && w.solver_index[i] != kNoSolverBody; });
+  const bool touched = is([&](uint32_t i) {
+    return isDynamic(w.store.states[i].motion_type) && w.solver_index[i] != kNoSolverBody;
+  });
   for (uint32_t i : c.bodies) w.jointed[i] = 1;
   if (c.is_direct && !touched) {
     w.free_components.push_back(&c);
     return;
   }
   w.joint_step.add(c);
-  for (uint32_t i : c.bodies) w.solver_index[i] = 0;
+  for (uint32_t i : c.bodies) w.needSolverBody(i);
 }
 
 }  // namespace
@@ -46,8 +47,8 @@ namespace stage {
 
 void gatherJoints(World::Impl& w) {
   listConstraints(w);
-  w.joint_components.update(w.joint_constraints, static_cast<uint32_t>(w.store.states.size()), w.def.joint_solver);
-  if (w.pairs.empty()) w.solver_index.assign(w.store.states.size(), kNoSolverBody);
+  w.joint_components.update(w.joint_constraints, static_cast<uint32_t>(w.store.states.size()),
+                            w.def.joint_solver);
   w.jointed.assign(w.store.states.size(), 0);
   // A body may belong to two components that are touched at different ends only when it is not movable.
   for (JointComponent& c : w.joint_components.components()) assignSolver(w, c);
@@ -72,7 +73,8 @@ void breakJoints(World::Impl& w) {
   w.broken_joints.clear();
   for (uint32_t i = 0; i < w.joint_store.joints.size(); ++i) {
     const Joint& j = w.joint_store.joints[i];
-    if (j.force.norm() <= w.joint_store.break_force[i] && j.torque.norm() <= w.joint_store.break_torque[i]) continue;
+    if (j.force.norm() <= w.joint_store.break_force[i] && j.torque.norm() <= w.joint_store.break_torque[i])
+      continue;
     w.broken_joints.push_back({i, w.joint_store.generations[i]});
   }
   for (JointId id : w.broken_joints) w.joint_store.remove(id.index);

@@ -13,7 +13,7 @@ void followKeyframes(World::Impl& w) {
     s.position += w.dt * s.linear_velocity;
     s.orientation = (expMap(w.dt * s.angular_velocity) * s.orientation).normalized();
   }
-  for (const KeyframeTarget& k : w.keyframes) {
+  for (const BodyPose& k : w.keyframes) {
     RigidState& s = w.store.states[k.body];
     s.position = k.pose.position;
     s.orientation = k.pose.orientation.normalized();

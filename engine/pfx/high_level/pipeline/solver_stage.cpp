@@ -5,7 +5,15 @@
 #include "pfx/high_level/pipeline/stages.h"
 #include "pfx/high_level/world/world_impl.h"
 
-namespace pfx::stage {
+namespace pfx {
+
+void World::Impl::needSolverBody(uint32_t body) {
+  if (solver_index[body] != kNoSolverBody) return;
+  solver_index[body] = 0;  // the set-up numbers them
+  solved.push_back(body);
+}
+
+namespace stage {
 namespace {
 
 constexpr uint32_t kBodyGrain = 128;
@@ -78,17 +86,13 @@ void flyFree(World::Impl& w) {
 }
 
 void beginComponent(World::Impl& w, JointComponent& c, const DirectStepParams& params) {
-  for (size_t i = 0; i < c.bodies.size(); ++i) c.motions[i] = makeMotion(w, c.bodies[i], static_cast<float>(params.h));
+  for (size_t i = 0; i < c.bodies.size(); ++i)
+    c.motions[i] = makeMotion(w, c.bodies[i], static_cast<float>(params.h));
   c.direct.begin(w.store.states, w.store.bodies, c.motions, params);
 }
 
 void setUpSolver(World::Impl& w) {
-  w.solved.clear();
-  for (uint32_t i = 0; i < w.solver_index.size(); ++i) {
-    if (w.solver_index[i] == kNoSolverBody) continue;
-    w.solver_index[i] = static_cast<uint32_t>(w.solved.size());
-    w.solved.push_back(i);
-  }
+  for (uint32_t k = 0; k < w.solved.size(); ++k) w.solver_index[w.solved[k]] = k;
   for (ContactConstraint& c : w.constraints) {
     c.solver_a = w.solver_index[c.solver_a];
     c.solver_b = w.solver_index[c.solver_b];
@@ -109,8 +113,11 @@ void setUpSolver(World::Impl& w) {
   });
   for (JointComponent* c : w.joint_step.components()) {
     for (size_t i = 0; i < c->bodies.size(); ++i) c->solver_index[i] = w.solver_index[c->bodies[i]];
-    beginComponent(w, *c, {params.h, params.substeps, params.warm_start});
+    if (c->is_direct) beginComponent(w, *c, {params.h, params.substeps, params.warm_start});
   }
+  if (!w.joint_step.empty())
+    w.joint_step.prepare(w.store.states, w.solver_dynamic, w.solver_bodies,
+                         {params.h, params.substeps, params.warm_start, params.simd}, w.tasks);
   w.soft_step.prepare(w.constraints, w.solver_dynamic, w.solver_bodies, params, w.tasks);
   for (SolverBody& b : w.solver_bodies) {
     const SolverBody at_rest;
@@ -120,7 +127,7 @@ void setUpSolver(World::Impl& w) {
 
 void solve(World::Impl& w) {
   w.soft_step.solve(w.solver_bodies, w.motions, solveParams(w), w.joint_step, w.tasks);
-  w.joint_step.end();
+  if (!w.joint_step.empty()) w.joint_step.end(w.store.states, w.tasks);
 }
 
 void writeBack(World::Impl& w) {
@@ -139,4 +146,5 @@ void writeBack(World::Impl& w) {
 
 void storeImpulses(World::Impl& w) { w.soft_step.store(w.tasks); }
 
-}  // namespace pfx::stage
+}  // namespace stage
+}  // namespace pfx

@@ -32,6 +32,7 @@ constexpr std::array kSimple = {
     Stage{"write back", hasConstraints, stage::writeBack},
     Stage{"break joints", hasJoints, stage::breakJoints},
     Stage{"key frames", hasKeyframes, stage::followKeyframes},
+    Stage{"continuous", hasPairs, stage::stopAtImpacts},
 };
 
 constexpr std::array kStable = {
@@ -47,6 +48,7 @@ constexpr std::array kStable = {
     Stage{"write back", hasConstraints, stage::writeBack},
     Stage{"break joints", hasJoints, stage::breakJoints},
     Stage{"key frames", hasKeyframes, stage::followKeyframes},
+    Stage{"continuous", hasPairs, stage::stopAtImpacts},
     Stage{"store impulses", hasContacts, stage::storeImpulses},
     Stage{"sleep", sleeps, stage::putToSleep},
 };

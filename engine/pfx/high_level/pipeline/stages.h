@@ -8,6 +8,7 @@ namespace pfx::stage {
 
 void begin(World::Impl& world);              // lists the awake bodies
 void findPairsAnew(World::Impl& world);      // pairs and contacts from nothing
+void updateTree(World::Impl& world);         // bounds of everything that moved
 void updatePairs(World::Impl& world);        // pairs, keeping the contacts of those that stay
 void detectCollisions(World::Impl& world);   // manifolds of all pairs
 void gatherConstraints(World::Impl& world);  // manifolds to be solved; bodies that fly free
@@ -21,6 +22,8 @@ void followKeyframes(World::Impl& world);    // key-frame bodies reach their pos
 void storeImpulses(World::Impl& world);      // rows to manifolds, for the next step
 void wakeTouched(World::Impl& world);        // islands that something touches wake up
 void breakJoints(World::Impl& world);        // joints beyond their strength are removed
+void rememberPoses(World::Impl& world);      // where everything that moves starts from
+void stopAtImpacts(World::Impl& world);      // what moves far goes through nothing
 void putToSleep(World::Impl& world);         // islands at rest fall asleep
 
 // Fills in the bodies of a component for a step.

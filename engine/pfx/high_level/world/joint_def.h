@@ -18,8 +18,9 @@
 namespace pfx {
 
 // One of the kinds, or a record that was put together by hand.
-using JointParams = std::variant<BallJointParams, SwingTwistJointParams, HingeJointParams, SliderJointParams,
-                                 FixedJointParams, UniversalJointParams, DistanceJointParams, GearJointParams, Joint>;
+using JointParams =
+    std::variant<BallJointParams, SwingTwistJointParams, HingeJointParams, SliderJointParams,
+                 FixedJointParams, UniversalJointParams, DistanceJointParams, GearJointParams, Joint>;
 
 // The joint of two bodies where they stand now.
 Joint makeJoint(const RigidState& a, const RigidState& b, const JointParams& params);
@@ -45,9 +46,15 @@ struct JointDef {
   BodyId body_a = {};     // the joint's axes move with it
   BodyId body_b = {};
   JointParams params = BallJointParams{};
-  bool bodies_collide = false;  // with each other
+  bool bodies_collide = false;                                  // with each other
   float break_force = std::numeric_limits<float>::infinity();   // N; the joint is removed beyond it
   float break_torque = std::numeric_limits<float>::infinity();  // N m
+};
+
+// What a joint bears before it breaks.
+struct JointStrength {
+  float force;   // N
+  float torque;  // N m
 };
 
 // A joint's place in the world; `exists` is false for slots that are free.

@@ -12,25 +12,30 @@ namespace {
 }
 
 void requireShare(const JointDef& def, float x, const char* field) {
-  if (!(x >= 0.0f && x <= 1.0f)) reject(def, std::string(field) + " = " + std::to_string(x) + ", must be 0 .. 1");
+  if (!(x >= 0.0f && x <= 1.0f))
+    reject(def, std::string(field) + " = " + std::to_string(x) + ", must be 0 .. 1");
 }
 
 void check(const JointDef& def, const Joint& j) {
   if (!j.anchor_a.allFinite() || !j.anchor_b.allFinite()) reject(def, "an anchor is not finite");
   if (!(std::abs(j.frame_a.norm() - 1.0f) < 1e-3f) || !(std::abs(j.frame_b.norm() - 1.0f) < 1e-3f))
     reject(def, "a frame is not a rotation");
-  if (!std::isfinite(j.gear_ratio) || j.gear_ratio == 0.0f) reject(def, "the gear ratio is zero or not finite");
+  if (!std::isfinite(j.gear_ratio) || j.gear_ratio == 0.0f)
+    reject(def, "the gear ratio is zero or not finite");
   for (const AxisConstraint& c : j.axis) {
     if (std::isnan(c.lower) || std::isnan(c.upper)) reject(def, "a limit is not a number");
-    if (c.lock == JointLock::Limit && c.lower > c.upper) reject(def, "the lower limit is above the upper one");
+    if (c.lock == JointLock::Limit && c.lower > c.upper)
+      reject(def, "the lower limit is above the upper one");
     requireShare(def, c.bias, "bias");
     requireShare(def, c.damping, "damping");
     requireShare(def, c.weight, "weight");
     const bool sane = c.max_force >= 0.0f && c.motor_max_force >= 0.0f && c.spring_frequency >= 0.0f &&
-                      c.spring_damping >= 0.0f && std::isfinite(c.motor_speed) && std::isfinite(c.spring_target);
+                      c.spring_damping >= 0.0f && std::isfinite(c.motor_speed) &&
+                      std::isfinite(c.spring_target);
     if (!sane) reject(def, "a force, frequency or damping ratio is negative or not finite");
   }
-  if (!(def.break_force > 0.0f) || !(def.break_torque > 0.0f)) reject(def, "break force and torque must be > 0");
+  if (!(def.break_force > 0.0f) || !(def.break_torque > 0.0f))
+    reject(def, "break force and torque must be > 0");
 }
 
 }  // namespace
@@ -84,7 +89,8 @@ std::span<const uint64_t> JointStore::keptApart() {
     kept_apart_.clear();
     for (const JointLink& l : links)
       if (l.exists && !l.bodies_collide)
-        kept_apart_.push_back(Pair{.body_a = std::min(l.body_a, l.body_b), .body_b = std::max(l.body_a, l.body_b)}.key());
+        kept_apart_.push_back(
+            Pair{.body_a = std::min(l.body_a, l.body_b), .body_b = std::max(l.body_a, l.body_b)}.key());
     std::sort(kept_apart_.begin(), kept_apart_.end());
     changed_ = false;
   }

@@ -5,6 +5,7 @@
 #include <stdexcept>
 
 #include "pfx/base_level/math/trig.h"
+#include "pfx/high_level/pipeline/stages.h"
 #include "pfx/high_level/world/world_impl.h"
 #include "pfx/util/state_hash/state_hash.h"
 
@@ -48,6 +49,14 @@ void World::Impl::linkIslands() {
   islands.build(store.states, island_links);
 }
 
+// The links of all islands, in the order in which the islands keep them, as indices of pairs.
+void World::Impl::listIslandPairs() {
+  island_pairs.clear();
+  for (uint32_t k = 0; k < islands.size(); ++k)
+    for (uint32_t link : islands.links(k))
+      island_pairs.push_back(link < island_link_pairs.size() ? island_link_pairs[link] : 0);
+}
+
 World::World(const WorldDef& def) {
   if (def.substeps < 1) throw std::invalid_argument("world: substeps must be >= 1");
   if (!def.gravity.allFinite()) throw std::invalid_argument("world: gravity is not finite");
@@ -65,6 +74,7 @@ LargeMesh* World::keep(LargeMesh mesh) { return &impl_->large_meshes.emplace_bac
 BodyId World::addBody(const BodyDef& def) {
   const BodyId id = impl_->store.add(def);
   impl_->active_changed = true;
+  impl_->tree_is_current = false;
   impl_->changed_bodies.push_back(id.index);
   return id;
 }
@@ -86,6 +96,7 @@ void World::removeBody(BodyId id) {
   }
   impl_->store.remove(id.index);
   impl_->active_changed = true;
+  impl_->tree_is_current = false;
   impl_->changed_bodies.push_back(id.index);
 }
 
@@ -113,6 +124,7 @@ RigidState& World::state(BodyId id) {
   impl_->wake(id.index);
   impl_->wakeNeighbours(id.index);
   impl_->active_changed = true;
+  impl_->tree_is_current = false;
   impl_->changed_bodies.push_back(id.index);
   return impl_->store.states[id.index];
 }
@@ -160,6 +172,9 @@ JointId World::jointId(uint32_t index) const { return {index, impl_->joint_store
 std::span<const Joint> World::joints() const { return impl_->joint_store.joints; }
 std::span<const JointLink> World::jointLinks() const { return impl_->joint_store.links; }
 std::string_view World::jointName(uint32_t index) const { return impl_->joint_store.names.at(index); }
+JointStrength World::jointStrength(uint32_t index) const {
+  return {impl_->joint_store.break_force.at(index), impl_->joint_store.break_torque.at(index)};
+}
 std::span<const JointId> World::brokenJoints() const { return impl_->broken_joints; }
 
 Joint& World::joint(JointId id) {
@@ -177,6 +192,27 @@ JointError World::jointError(uint32_t index) const {
   return pfx::jointError(impl_->joint_store.joints[index], pose(link.body_a), pose(link.body_b));
 }
 
+QueryScene World::Impl::queryScene() {
+  refreshActive();
+  if (!tree_is_current) stage::updateTree(*this);
+  tree_is_current = true;
+  return {.states = store.states, .collidables = store.collidables, .tree = &tree};
+}
+
+RayOutput World::castRay(const RayInput& ray) const { return pfx::castRay(ray, impl_->queryScene()); }
+
+Error World::castRays(std::span<const RayInput> rays, std::span<RayOutput> outputs) const {
+  return pfx::castRays(rays, impl_->queryScene(), outputs, &impl_->tasks);
+}
+
+ShapeCastOutput World::castShape(const ShapeCastInput& input) const {
+  return pfx::castShape(input, impl_->queryScene());
+}
+
+void World::findOverlaps(const OverlapInput& input, std::vector<uint32_t>& bodies) const {
+  pfx::findOverlaps(input, impl_->queryScene(), bodies);
+}
+
 std::span<const Pair> World::contactPairs() const { return impl_->pairs; }
 
 std::span<const ContactManifold> World::manifolds(const Pair& pair) const {
@@ -185,6 +221,7 @@ std::span<const ContactManifold> World::manifolds(const Pair& pair) const {
 
 uint32_t World::numIslands() const {
   impl_->linkIslands();
+  impl_->listIslandPairs();
   return impl_->islands.size();
 }
 
@@ -194,8 +231,9 @@ IslandView World::island(uint32_t index) const {
   const auto links = impl_->islands.links(index);
   const auto first_joint = std::lower_bound(links.begin(), links.end(), impl_->island_link_pairs.size());
   const auto num_contacts = static_cast<size_t>(first_joint - links.begin());
+  const auto offset = static_cast<size_t>(links.data() - impl_->islands.links(0).data());
   return {.bodies = bodies,
-          .contacts = links.first(num_contacts),
+          .contacts = std::span(impl_->island_pairs).subspan(offset, num_contacts),
           .joints = static_cast<uint32_t>(links.size() - num_contacts),
           .asleep = first.asleep,
           .sleep_timer = static_cast<float>(first.sleep_count) * impl_->dt};

@@ -1,6 +1,7 @@
 // The world: owns the bodies and the buffers of every stage, and steps them.
 #pragma once
 
+#include <cstddef>
 #include <memory>
 #include <span>
 #include <string>
@@ -14,7 +15,8 @@
 #include "pfx/base_level/shape/collidable.h"
 #include "pfx/base_level/simd_level.h"
 #include "pfx/high_level/world/joint_def.h"
-#include "pfx/low_level/solver/joint_components.h"
+#include "pfx/low_level/ray/ray_cast.h"
+#include "pfx/low_level/solver/joint_constraint.h"
 
 namespace pfx {
 
@@ -114,8 +116,8 @@ class World {
   // Moves a Keyframe body: it reaches `pose` at the end of the next step of dt seconds.
   void moveKeyframe(BodyId id, const Transform& pose, float dt);
 
-  // Adds a joint between two bodies where they stand. Throws std::invalid_argument, naming the joint, when a body does
-  // not exist, both are the same, or a parameter lies outside its range.
+  // Adds a joint between two bodies where they stand. Throws std::invalid_argument, naming the joint, when a
+  // body does not exist, both are the same, or a parameter lies outside its range.
   JointId addJoint(const JointDef& def);
   void removeJoint(JointId id);
   bool isValid(JointId id) const;
@@ -125,6 +127,7 @@ class World {
   std::span<const Joint> joints() const;
   std::span<const JointLink> jointLinks() const;
   std::string_view jointName(uint32_t index) const;
+  JointStrength jointStrength(uint32_t index) const;
 
   // Mutable access between steps, to change limits, motors, springs, or the kind. Wakes both bodies.
   Joint& joint(JointId id);
@@ -134,6 +137,16 @@ class World {
 
   // Joints that broke in the last step; they are removed already.
   std::span<const JointId> brokenJoints() const;
+
+  // Queries about the bodies as they are now. The first one after a step or a change brings the tree up to
+  // date; after that any number of threads may ask at once until the next change.
+  RayOutput castRay(const RayInput& ray) const;  // nearest hit; among equals the lowest body, then shape
+  // outputs[i] = castRay(rays[i]), shared out over the workers. Error::OutOfRange for spans of different
+  // length.
+  Error castRays(std::span<const RayInput> rays, std::span<RayOutput> outputs) const;
+  ShapeCastOutput castShape(const ShapeCastInput& input) const;
+  // Appends the bodies that overlap the convex shape, ascending.
+  void findOverlaps(const OverlapInput& input, std::vector<uint32_t>& bodies) const;
 
   // Pairs whose bounds met in the last step, by key; contact_id + k (k < count) indexes manifolds().
   std::span<const Pair> contactPairs() const;
@@ -145,6 +158,14 @@ class World {
   WorldCounts counts() const;
   std::span<const StageTime> stageTimes() const;  // of the last step, in order
   std::vector<std::string_view> stages() const;   // that this world's content makes it run, in order
+  // Everything that the world needs to continue to the bit, meshes included, as portable bytes (snapshot.h). snapshot()
+  // returns how many it wrote. restore() goes back to them, or takes over those of another world; the number of
+  // workers and the SIMD level stay, ids and the addresses of meshes stay valid. Both throw SnapshotError, snapshot()
+  // when the buffer is too short or a mesh is not kept by the world; after an error the world is as it was.
+  size_t snapshotBytes() const;
+  size_t snapshot(std::span<std::byte> out) const;
+  void restore(std::span<const std::byte> in);
+
   uint64_t stateHash() const;                     // of pose and velocity of all bodies, bit-exact
 
   struct Impl;  // the stages of high_level/pipeline work on it

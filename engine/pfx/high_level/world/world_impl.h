@@ -21,9 +21,16 @@
 
 namespace pfx {
 
-struct KeyframeTarget {
+struct BodyPose {
   uint32_t body;
   Transform pose;  // at the end of the step
+};
+
+// Where a fast body is held up in a step.
+struct Stop {
+  float fraction = 1.0f;      // of the step; 1: it is not
+  Vec3 point = Vec3::Zero();  // m, world, of the impact
+  uint32_t by = 0;            // the body that it hits
 };
 
 struct World::Impl {
@@ -42,7 +49,7 @@ struct World::Impl {
   uint32_t num_sleepers = 0;
   bool active_changed = true;  // a body was added, removed, changed its type, slept or woke
 
-  std::vector<KeyframeTarget> keyframes;
+  std::vector<BodyPose> keyframes;  // poses that Keyframe bodies were told
 
   // Broad phase: the sweep for worlds that remember nothing, the trees for all others
   std::vector<BroadphaseProxy> proxies;
@@ -52,6 +59,13 @@ struct World::Impl {
   SweepBroadphase sweep;
   TreeBroadphase tree;
   std::vector<Pair> pairs, next_pairs;  // with a body that moves; sorted by key
+
+  // Continuous collision, by body
+  std::vector<Transform> start_poses;
+  std::vector<uint8_t> is_fast;
+  std::vector<Stop> stops;
+  std::vector<BodyPose> stopped_poses;
+  bool tree_is_current = false;  // the tree holds the bodies where they are now
 
   // Sleep
   std::vector<uint32_t> next_sleeper;  // by body: the next one of its sleeping island, in a ring
@@ -64,8 +78,9 @@ struct World::Impl {
 
   // Islands, of awake bodies and of the pairs that touch
   Islands islands;
-  std::vector<Link> island_links;  // of contacts, then of joints
+  std::vector<Link> island_links;           // of contacts, then of joints
   std::vector<uint32_t> island_link_pairs;  // index into pairs, by link
+  std::vector<uint32_t> island_pairs;       // of contacts, island by island, for IslandView
 
   // Joints
   JointStore joint_store;
@@ -78,7 +93,7 @@ struct World::Impl {
 
   // Solver
   std::vector<ContactConstraint> constraints;
-  std::vector<uint32_t> solver_index;  // by body; kNoSolverBody when it has none
+  std::vector<uint32_t> solver_index;  // by body; kNoSolverBody when it has none, as between steps
   std::vector<uint32_t> solved;        // body of each solver body
   std::vector<uint32_t> free_bodies;   // active bodies without a constraint
   std::vector<SolverBody> solver_bodies;
@@ -91,6 +106,9 @@ struct World::Impl {
   bool solves(const Pair& pair) const;
   void refreshActive();
   void linkIslands();
+  QueryScene queryScene();             // for queries about the bodies as they are now
+  void needSolverBody(uint32_t body);  // the solver will work on it
+  void listIslandPairs();
   void wake(uint32_t body);            // and its whole island
   void wakeNeighbours(uint32_t body);  // everything that it touches
   void revivePairs();

@@ -53,6 +53,7 @@ class TreeBroadphase {
   std::span<const Pair> pairs();  // both together
 
   bool contains(uint32_t body) const { return body < status_.size() && !(status_[body] & kGone); }
+  const Aabb& bounds(uint32_t body) const { return bounds_[body]; }  // of a body that it contains
   uint32_t size() const;
   std::size_t memoryBytes() const;
   const DynamicTree& restingTree() const { return resting_tree_; }

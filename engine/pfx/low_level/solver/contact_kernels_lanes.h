@@ -2,74 +2,10 @@
 // contact_kernels_avx2.cpp.
 #pragma once
 
-#include "pfx/base_level/math/lanes.h"
+#include "pfx/low_level/solver/body_lanes.h"
 #include "pfx/low_level/solver/contact_kernels.h"
 
 namespace pfx::PFX_LANES {
-
-struct Velocity {
-  V8 v, w;
-};
-struct Mass {
-  F8 inv_mass;
-  S8 inv_inertia;
-};
-struct Motion {  // since the start of the step
-  V8 dp, u;
-  F8 q;
-};
-
-// One side of a batch: which bodies, and what of them the kernels use.
-struct Side {
-  SolverBody* bodies[8];
-  Velocity velocity;
-  Mass mass;
-};
-
-inline F8 laneMask(uint32_t bits) {
-  alignas(32) uint32_t m[8];
-  for (int i = 0; i < 8; ++i) m[i] = bits >> i & 1 ? 0xffffffffu : 0u;
-  return F8::load(reinterpret_cast<const float*>(m));
-}
-
-inline Side loadSide(SolverBody* bodies, const int32_t (&index)[8], uint32_t writable) {
-  Side s;
-  const float* rows[8];
-  for (int i = 0; i < 8; ++i) {
-    s.bodies[i] = bodies + index[i];
-    rows[i] = s.bodies[i]->v;
-  }
-  F8 t[8];
-  loadTransposed(rows, t);
-  s.velocity = {{t[0], t[1], t[2]}, {t[4], t[5], t[6]}};
-  s.mass.inv_mass = t[3];
-  for (int i = 0; i < 8; ++i) rows[i] = s.bodies[i]->inv_inertia;
-  loadTransposed(rows, t);
-  s.mass.inv_inertia = {t[0], t[1], t[2], t[3], t[4], t[5]};
-  if (writable != 0xffu) {
-    const F8 m = laneMask(writable);
-    s.mass.inv_mass = s.mass.inv_mass & m;
-    S8& i = s.mass.inv_inertia;
-    i = {i.xx & m, i.xy & m, i.xz & m, i.yy & m, i.yz & m, i.zz & m};
-  }
-  return s;
-}
-
-inline Motion loadMotion(const Side& s) {
-  const float* rows[8];
-  for (int i = 0; i < 8; ++i) rows[i] = s.bodies[i]->dp;
-  F8 t[8];
-  loadTransposed(rows, t);
-  return {{t[0], t[1], t[2]}, {t[4], t[5], t[6]}, t[7]};
-}
-
-inline void storeSide(const Side& s, uint32_t writable) {
-  float* rows[8];
-  for (int i = 0; i < 8; ++i) rows[i] = writable >> i & 1 ? s.bodies[i]->v : nullptr;
-  const Velocity& u = s.velocity;
-  const F8 t[8] = {u.v.x, u.v.y, u.v.z, s.mass.inv_mass, u.w.x, u.w.y, u.w.z, F8::zero()};
-  storeTransposed(t, rows);
-}
 
 // Writes back only the velocity of writable lanes; a read-only lane of a one-way pair keeps its true mass,
 // because its row is not stored at all.
@@ -103,7 +39,7 @@ inline V8 frictionArm(const V8& center, const V8& arm, F8 spread) { return cente
 // How far the body's rotation has moved the end of `arm` since the start of the step. On a round body the point of
 // contact stays where it is while the surface passes through it, so only the first-order part counts, which has no
 // component along the normal when the body rolls. turns: 1 or 0, see ContactRows.
-inline V8 armShift(const Motion& m, const V8& arm, F8 turns) {
+inline V8 contactShift(const Motion& m, const V8& arm, F8 turns) {
   const V8 t = F8::set(2.0f) * cross(m.u, arm);
   return t + turns * ((m.q - F8::set(1.0f)) * t + cross(m.u, t));
 }
@@ -217,7 +153,7 @@ inline void push(ContactRows* rows, uint32_t count, SolverBody* bodies, const Co
     for (uint32_t sweep = 0; sweep < kSweeps * r.num_points; ++sweep) {
       ContactPointRows& p = r.points[sweep % r.num_points];
       const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
-      const F8 s = F8::load(p.separation) + dot(n, shift + (armShift(mb, arm_b, turns_b) - armShift(ma, arm_a, turns_a)));
+      const F8 s = F8::load(p.separation) + dot(n, shift + (contactShift(mb, arm_b, turns_b) - contactShift(ma, arm_a, turns_a)));
       const F8 apart = s > zero;
       const F8 bias = select(apart, s * inv_h, max(bias_rate * s, slowest));
       const F8 vn = dot(n, relativeVelocity(c, arm_a, arm_b));
@@ -240,7 +176,7 @@ inline void relaxNormals(Batch& c, const V8& n, F8 inv_h) {
   for (uint32_t i = 0; i < c.rows.num_points; ++i) {
     ContactPointRows& p = c.rows.points[i];
     const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
-    const F8 s = F8::load(p.separation) + dot(n, shift + (armShift(mb, arm_b, turns_b) - armShift(ma, arm_a, turns_a)));
+    const F8 s = F8::load(p.separation) + dot(n, shift + (contactShift(mb, arm_b, turns_b) - contactShift(ma, arm_a, turns_a)));
     const F8 vn = dot(n, relativeVelocity(c, arm_a, arm_b));
     const F8 old = F8::load(p.normal_impulse);
     const F8 impulse = max(old - F8::load(p.normal_mass) * (vn + max(s, zero) * inv_h), zero);

@@ -1,16 +1,11 @@
 #include "pfx/low_level/solver/direct_body.h"
 
-#include <algorithm>
 #include <cmath>
 
 #include "pfx/base_level/math/trig.h"
 
 namespace pfx {
 namespace {
-
-constexpr double kStiffnessShare = 0.1;  // of the inertia, from which on geometric stiffness is added
-// Above this ratio of h^2 |K| to the inertia a sub-step no longer resolves the vibration: it is damped instead.
-constexpr double kUnresolved = 2.0;
 
 // Quaternion of the rotation by |u| radians about u.
 Quatd turnBy(const Vec3d& u) {
@@ -93,24 +88,28 @@ void predict(DirectBody& b, double h) {
   b.next_w = velocityAt(b.next.orientation, b.body_inverse, l);
 }
 
-void updateInverseInertia(DirectBody& b, double h) {
+double stiffnessRatio(const DirectBody& b, double h) {
+  if (!b.dynamic) return 0.0;
+  const Mat3d r = b.pose.orientation.toRotationMatrix();
+  const Mat3d k = r.transpose() * b.stiffness * r;
+  const Vec3d root = b.body_inertia.diagonal().cwiseSqrt();
+  return h * h * k.cwiseQuotient(root * root.transpose()).cwiseAbs().maxCoeff();
+}
+
+void updateInverseInertia(DirectBody& b, double h, bool stiffen) {
   if (!b.dynamic) return;
-  b.stiffened = false;
-  const Vec3d columns = h * h * b.stiffness.colwise().norm().transpose();
-  if (b.spherical && columns.maxCoeff() <= kStiffnessShare * b.body_inertia(0, 0)) {
+  if (!stiffen && b.spherical) {
     b.inverse = b.body_inverse;
     return;
   }
   const Mat3d r = b.pose.orientation.toRotationMatrix();
-  const double least = b.body_inertia.diagonal().minCoeff();
-  if (columns.maxCoeff() <= kStiffnessShare * least) {
+  if (!stiffen) {
     b.inverse = r * b.body_inverse * r.transpose();
     return;
   }
-  b.stiffened = columns.maxCoeff() > kUnresolved * least;
-  Mat3d world = r * b.body_inertia * r.transpose();
-  world.diagonal() += (b.stiffened ? 1.0 : 0.5) * columns;
-  b.inverse = world.inverse();
+  Mat3d inertia = b.body_inertia;
+  inertia.diagonal() += h * h * (r.transpose() * b.stiffness * r).colwise().norm().transpose();
+  b.inverse = r * inertia.inverse() * r.transpose();
 }
 
 }  // namespace pfx

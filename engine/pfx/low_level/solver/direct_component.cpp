@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "pfx/low_level/solver/direct_factor.h"
 
@@ -10,12 +11,22 @@ namespace {
 
 constexpr int kMaxIterations = 12;  // solves a sub-step; two are the rule, changes of limits take the rest
 
-// What the diagonal is enlarged by: enough to make the factor exist, too little to be seen. Rows of a closed component
-// may depend on each other; there it also decides how loads are shared, and errors of the position below the slop,
-// which rounding of the poses makes and no force can remove, count as none.
+// Iterations end where rounding no longer lets the residual fall by this factor.
+constexpr double kStagnation = 0.9;
+
+// What the diagonal is enlarged by: enough to make the factor exist, too little to be seen. Rows of a closed
+// component may depend on each other; there it also decides how loads are shared, and errors of the position
+// below the slop, which rounding of the poses makes and no force can remove, count as none.
 constexpr double kOpenRegularization = 1e-9;
 constexpr double kClosedRegularization = 1e-6;
 constexpr double kClosedSlop = 1e-6;
+
+// From the first ratio of h^2 |K| to the inertia on (see stiffnessRatio), a component takes damped sub-steps
+// with the geometric stiffness of those bodies for which it is more than a tenth of the inertia, until it
+// falls below the second. Below, leapfrog resolves every vibration and conserves energy.
+constexpr double kUnresolved = 1.0;
+constexpr double kResolvedAgain = 0.05;
+constexpr double kStiffnessShare = 0.1;
 
 double dot6(const double (&a)[6], const double (&b)[6]) {
   return (a[0] * b[0] + a[1] * b[1] + a[2] * b[2]) + (a[3] * b[3] + a[4] * b[4] + a[5] * b[5]);
@@ -49,7 +60,8 @@ bool DirectComponent::build(std::span<const JointConstraint> joints, uint64_t ma
   std::sort(body_index_.begin(), body_index_.end());
   body_index_.erase(std::unique(body_index_.begin(), body_index_.end()), body_index_.end());
   const auto local = [&](uint32_t body) {
-    return static_cast<uint32_t>(std::lower_bound(body_index_.begin(), body_index_.end(), body) - body_index_.begin());
+    return static_cast<uint32_t>(std::lower_bound(body_index_.begin(), body_index_.end(), body) -
+                                 body_index_.begin());
   };
   joints_.clear();
   std::vector<JointEnds> ends;
@@ -66,7 +78,8 @@ bool DirectComponent::build(std::span<const JointConstraint> joints, uint64_t ma
     joints_.push_back(j);
     ends.push_back({{j.body[0], j.body[1]}, {j.moves[0], j.moves[1]}});
   }
-  if (!buildDirectStructure(ends, static_cast<uint32_t>(body_index_.size()), max_products, structure_)) return false;
+  if (!buildDirectStructure(ends, static_cast<uint32_t>(body_index_.size()), max_products, structure_))
+    return false;
 
   const size_t n = joints_.size();
   closed_ = n > static_cast<size_t>(std::count(moved.begin(), moved.end(), 1));
@@ -88,7 +101,7 @@ bool DirectComponent::build(std::span<const JointConstraint> joints, uint64_t ma
 void DirectComponent::begin(std::span<const RigidState> states, std::span<const RigidBody> bodies,
                             std::span<const BodyMotion> motions, const DirectStepParams& params) {
   params_ = params;
-  linearized_ = false;
+  linearized_ = started_ = false;
   bodies_.resize(body_index_.size());
   start_.resize(body_index_.size());
   for (size_t i = 0; i < body_index_.size(); ++i) {
@@ -118,16 +131,16 @@ void DirectComponent::addStiffness(const DirectJoint& j) {
 void DirectComponent::linearize(const DirectSubstep& s) {
   for (DirectBody& b : bodies_) {
     b.stiffness.setZero();
-    updateInverseInertia(b, s.h);
+    updateInverseInertia(b, s.h, false);
   }
   for (DirectJoint& j : joints_) linearizeRows(j, bodies_, s);
   for (const DirectJoint& j : joints_) addStiffness(j);
-  for (DirectBody& b : bodies_) updateInverseInertia(b, s.h);
+  double ratio = 0.0;
+  for (const DirectBody& b : bodies_) ratio = std::max(ratio, stiffnessRatio(b, s.h));
+  stiff_ = ratio > (stiff_ ? kResolvedAgain : kUnresolved);
+  if (!stiff_) return;
+  for (DirectBody& b : bodies_) updateInverseInertia(b, s.h, stiffnessRatio(b, s.h) > kStiffnessShare);
   for (DirectJoint& j : joints_) updateResponses(j, bodies_);
-}
-
-bool DirectComponent::isStiffened() const {
-  return std::any_of(bodies_.begin(), bodies_.end(), [](const DirectBody& b) { return b.stiffened; });
 }
 
 void DirectComponent::factor() {
@@ -159,8 +172,9 @@ void DirectComponent::solve() {
   solveDirect<6>(structure_, blocks, x_);
 }
 
-// Right-hand side; returns the worst residual over its tolerance. What the regularisation lets through is asked for
-// only up to the regularised system's own solution, so that impulses do not grow from sub-step to sub-step.
+// Right-hand side; returns the worst residual over its tolerance. What the regularisation lets through is
+// asked for only up to the regularised system's own solution, so that impulses do not grow from sub-step to
+// sub-step.
 double DirectComponent::fillResiduals(const DirectSubstep& s, bool velocity_only) {
   const double regularization = closed_ ? kClosedRegularization : kOpenRegularization;
   double worst = 0.0;
@@ -202,8 +216,10 @@ bool DirectComponent::update(bool velocity_only, bool first) {
   return changed;
 }
 
-// Newton's method on the positions at the end of the sub-step, with one factor as long as the rows stay the same.
+// Newton's method on the positions at the end of the sub-step, with one factor as long as the rows stay the
+// same.
 void DirectComponent::holdPositions(const DirectSubstep& s) {
+  double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     predictAll(s.h);
     const bool changed = update(false, iteration == 0);
@@ -211,7 +227,9 @@ void DirectComponent::holdPositions(const DirectSubstep& s) {
       factor();
       linearized_ = true;
     }
-    if (fillResiduals(s, false) < 1.0 && !changed) return;
+    const double worst = fillResiduals(s, false);
+    if (!changed && (worst < 1.0 || worst > kStagnation * last)) return;
+    last = changed ? std::numeric_limits<double>::infinity() : worst;
     solve();
     applySolution();
   }
@@ -219,13 +237,16 @@ void DirectComponent::holdPositions(const DirectSubstep& s) {
 }
 
 void DirectComponent::holdVelocities(const DirectSubstep& s) {
+  double last = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const bool changed = update(true, iteration == 0);
     if (changed || !linearized_) {
       factor();
       linearized_ = true;
     }
-    if (fillResiduals(s, true) < 1.0 && !changed) return;
+    const double worst = fillResiduals(s, true);
+    if (!changed && (worst < 1.0 || worst > kStagnation * last)) return;
+    last = changed ? std::numeric_limits<double>::infinity() : worst;
     solve();
     applySolution();
   }
@@ -266,7 +287,7 @@ void DirectComponent::advance(std::span<RigidState> states) {
   for (int i = 0; i < params_.substeps; ++i) {
     DirectSubstep s{h, i == 0 ? 0.5 : 1.0, true, false, closed_ ? kClosedSlop : 0.0};
     linearize(s);
-    s.linear = isStiffened();
+    s.linear = stiff_;
     linearized_ = false;
     for (DirectBody& b : bodies_) kick(b, h, s.part);
     startFrom(s.part);
@@ -304,25 +325,44 @@ void DirectComponent::load(std::span<const SolverBody> bodies, std::span<const u
   }
 }
 
-void DirectComponent::store(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index) const {
+// Also notes what the joints have changed since the bodies were loaded.
+void DirectComponent::store(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index) {
   for (size_t i = 0; i < bodies_.size(); ++i) {
-    const DirectBody& b = bodies_[i];
+    DirectBody& b = bodies_[i];
     if (!b.dynamic) continue;
     SolverBody& s = bodies[solver_index[i]];
+    b.joint_velocity += b.v - Vec3d(s.v[0], s.v[1], s.v[2]);
+    const Quatd& q = b.pose.orientation;
+    b.joint_momentum += q * (b.body_inertia * (q.conjugate() * (b.w - Vec3d(s.w[0], s.w[1], s.w[2]))));
     for (int k = 0; k < 3; ++k) s.v[k] = static_cast<float>(b.v[k]), s.w[k] = static_cast<float>(b.w[k]);
   }
 }
 
-void DirectComponent::applyWarmStart(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index) {
+// The bodies start a sub-step with the impulses of the last one (see substep.h), joints included. Those of
+// joints have to follow the levers: a force that lags behind a swinging body would feed it energy.
+void DirectComponent::startSubstep(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index) {
   load(bodies, solver_index);
-  linearize({params_.h, 1.0, false, false, 0.0});
-  linearized_ = false;
+  if (!started_) {
+    linearize({params_.h, 1.0, false, false, 0.0});
+    linearized_ = false;
+    started_ = true;
+  }
+  for (size_t i = 0; i < bodies_.size(); ++i) {
+    DirectBody& b = bodies_[i];
+    if (!b.dynamic) continue;
+    const Quatd& q = b.pose.orientation;
+    b.v -= b.joint_velocity;
+    b.w -= q * (b.body_inverse * (q.conjugate() * b.joint_momentum));
+    SolverBody& s = bodies[solver_index[i]];
+    for (int k = 0; k < 3; ++k) s.v[k] = static_cast<float>(b.v[k]), s.w[k] = static_cast<float>(b.w[k]);
+    b.joint_velocity = b.joint_momentum = Vec3d::Zero();
+  }
   startFrom(1.0);
   store(bodies, solver_index);
 }
 
 void DirectComponent::solvePositions(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index) {
-  const DirectSubstep s{params_.h, 1.0, false, isStiffened(), closed_ ? kClosedSlop : 0.0};
+  const DirectSubstep s{params_.h, 1.0, false, stiff_, closed_ ? kClosedSlop : 0.0};
   load(bodies, solver_index);
   holdPositions(s);
   store(bodies, solver_index);

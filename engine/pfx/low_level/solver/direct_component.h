@@ -1,13 +1,16 @@
 // The direct joint solver for one component: bodies that joints link, solved together.
 //
-// All joints are held at once by a block-sparse L D L^T of J M^-1 J^T, so that neither the ratio of the masses nor the
-// length of a chain limits how well they hold. Alone, a component takes leapfrog sub-steps, of second order:
+// All joints are held at once by a block-sparse L D L^T of J M^-1 J^T, so that neither the ratio of the
+// masses nor the length of a chain limits how well they hold. Alone, a component takes leapfrog sub-steps, of
+// second order:
 //
-//   half a kick, [hold the positions at the end of the sub-step, move, kick] ..., half a kick, hold the velocities
+//   half a kick, [hold the positions at the end of the sub-step, move, kick] ..., half a kick, hold the
+//   velocities
 //
 // Together with contacts, the sub-step loop of soft_step.h calls solvePositions and solveVelocities instead.
-// Sources: D. Baraff, Linear-Time Dynamics using Lagrange Multipliers, SIGGRAPH 1996; H. Andersen, Rattle, J. Comp.
-// Phys. 52, 1983; E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, 2006, section VII.1.
+// Sources: D. Baraff, Linear-Time Dynamics using Lagrange Multipliers, SIGGRAPH 1996; H. Andersen, Rattle, J.
+// Comp. Phys. 52, 1983; E. Hairer, C. Lubich, G. Wanner, Geometric Numerical Integration, 2006, section
+// VII.1.
 #pragma once
 
 #include <span>
@@ -35,7 +38,8 @@ class DirectComponent {
   std::span<const uint32_t> bodies() const { return body_index_; }
   uint32_t numJoints() const { return static_cast<uint32_t>(joints_.size()); }
 
-  // Loads the bodies at the start of a step; motions: by local body, inertia null where joints do not move it.
+  // Loads the bodies at the start of a step; motions: by local body, inertia null where joints do not move
+  // it.
   void begin(std::span<const RigidState> states, std::span<const RigidBody> bodies,
              std::span<const BodyMotion> motions, const DirectStepParams& params);
 
@@ -43,7 +47,9 @@ class DirectComponent {
   void advance(std::span<RigidState> states);
 
   // One part of a sub-step together with contacts. solver_index: solver body by local body.
-  void applyWarmStart(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index);
+  // startSubstep puts the joints' impulses of the last sub-step, which the bodies remember, along today's
+  // levers.
+  void startSubstep(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index);
   void solvePositions(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index);
   void solveVelocities(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index);
 
@@ -53,7 +59,6 @@ class DirectComponent {
  private:
   void linearize(const DirectSubstep& s);
   void addStiffness(const DirectJoint& j);
-  bool isStiffened() const;
   void factor();
   void solve();
   double fillResiduals(const DirectSubstep& s, bool velocity_only);
@@ -66,7 +71,7 @@ class DirectComponent {
   void rememberForces(double part);
   void sumImpulses();
   void load(std::span<const SolverBody> bodies, std::span<const uint32_t> solver_index);
-  void store(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index) const;
+  void store(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index);
 
   DirectStepParams params_;
   std::vector<DirectJoint> joints_;
@@ -74,9 +79,11 @@ class DirectComponent {
   std::vector<TransformDouble> start_;  // poses at the start of the step
   std::vector<uint32_t> body_index_;
   DirectStructure structure_;
-  int block_ = 3;          // rows of a block: 3, 5 or 6
-  bool closed_ = false;    // loops, or held at several places: rows may depend on each other
-  bool linearized_ = false;  // at the poses of the bodies, factor included
+  int block_ = 3;                   // rows of a block: 3, 5 or 6
+  bool closed_ = false;             // loops, or held at several places: rows may depend on each other
+  bool stiff_ = false;              // sub-steps are damped, see stiffnessRatio
+  bool started_ = false;            // a sub-step of this step has begun
+  bool linearized_ = false;         // at the poses of the bodies, factor included
   std::vector<uint32_t> position_;  // in the order of elimination, by joint
   std::vector<double> diagonal_, off_diagonal_, scratch_, x_;
 };

@@ -1,7 +1,7 @@
 // Numeric part of the direct joint solver: block L D L^T over the structure, in double, for one block size.
 //
-// Every block is N x N, row by row; joints with fewer rows are padded with rows of the identity. Each function is a
-// plain loop, so that the order of operations, and with it every bit, is that of the structure.
+// Every block is N x N, row by row; joints with fewer rows are padded with rows of the identity. Each
+// function is a plain loop, so that the order of operations, and with it every bit, is that of the structure.
 #pragma once
 
 #include <cmath>
@@ -17,8 +17,8 @@ struct DirectBlocks {
   std::span<double> off_diagonal;  // afterwards: L
 };
 
-// Inverse of the symmetric positive definite m in place, by Cholesky. A pivot that is not positive (a row that the
-// others determine already) is taken out, as if it were held by nothing.
+// Inverse of the symmetric positive definite m in place, by Cholesky. A pivot that is not positive (a row
+// that the others determine already) is taken out, as if it were held by nothing.
 template <int N>
 void invertSymmetric(double* m) {
   double l[N][N], inverse[N][N];
@@ -86,8 +86,9 @@ void factorDirect(const DirectStructure& s, const DirectBlocks& blocks, std::spa
       multiply<N>(a, d, product);
       for (uint32_t k = begin; k <= i; ++k) {
         const uint32_t to = s.updates[update++];
-        double* target = to == DirectStructure::kDiagonal ? &blocks.diagonal[size_t(s.entries[i].row) * kBlock]
-                                                          : &blocks.off_diagonal[size_t(to) * kBlock];
+        double* target = to == DirectStructure::kDiagonal
+                             ? &blocks.diagonal[size_t(s.entries[i].row) * kBlock]
+                             : &blocks.off_diagonal[size_t(to) * kBlock];
         subtractProduct<N>(product, &blocks.off_diagonal[size_t(k) * kBlock], target);
       }
     }

@@ -12,7 +12,9 @@ namespace {
 constexpr double kTolerance = 2e-8;      // of a coordinate, in units of `length` or rad
 constexpr double kReferenceRate = 60.0;  // 1/s: damping is given as a share a sixtieth of a second
 
-double rowTolerance(const DirectJoint& j, const DirectRow& r) { return kTolerance * (r.axis < 3 ? j.length : 1.0); }
+double rowTolerance(const DirectJoint& j, const DirectRow& r) {
+  return kTolerance * (r.axis < 3 ? j.length : 1.0);
+}
 
 const AxisConstraint& axisOf(const DirectJoint& j, const DirectRow& r) { return j.joint->axis[r.axis]; }
 
@@ -26,8 +28,8 @@ bool hasDrive(const AxisConstraint& c) {
 
 RowState restState(const DirectRow& r) { return r.has_drive ? RowState::Drive : RowState::Off; }
 
-// Mobility along each row that has a spring or a damper: that of the axis alone less what the fixed rows take away,
-// by elimination of the fixed rows from the block of the joint.
+// Mobility along each row that has a spring or a damper: that of the axis alone less what the fixed rows take
+// away, by elimination of the fixed rows from the block of the joint.
 void findMobilities(DirectJoint& j) {
   const int n = j.num_rows;
   double m[kNumJointAxes][kNumJointAxes];
@@ -51,7 +53,8 @@ void findMobilities(DirectJoint& j) {
 
 void findSpring(const AxisConstraint& c, DirectRow& r) {
   const double damping = std::min(static_cast<double>(c.damping), 1.0);
-  r.damping_rate = damping < 1.0 ? -kReferenceRate * log(1.0 - damping) : std::numeric_limits<double>::infinity();
+  r.damping_rate =
+      damping < 1.0 ? -kReferenceRate * log(1.0 - damping) : std::numeric_limits<double>::infinity();
   r.stiffness = r.damper = 0.0;
   if (c.spring_frequency <= 0.0f) return;
   const double w = 2.0 * kPiDouble * c.spring_frequency;
@@ -59,15 +62,17 @@ void findSpring(const AxisConstraint& c, DirectRow& r) {
   r.damper = (2.0 * c.spring_damping * w + std::min(r.damping_rate, 1e6)) / r.mobility;
 }
 
-// A spring over a leapfrog sub-step: impulse = -k (x + beta h^2 a) - c (mean speed), the Newmark family; beta = 1/12
-// has an error of fourth order, 1/4 is stable for any stiffness. Source: N. Newmark, A Method of Computation for
-// Structural Dynamics, 1959; T. Hughes, The Finite Element Method, 2000, section 9.1. Otherwise implicit.
+// A spring over a leapfrog sub-step: impulse = -k (x + beta h^2 a) - c (mean speed), the Newmark family; beta
+// = 1/12 has an error of fourth order, 1/4 is stable for any stiffness. Source: N. Newmark, A Method of
+// Computation for Structural Dynamics, 1959; T. Hughes, The Finite Element Method, 2000, section 9.1.
+// Otherwise implicit.
 void setSpring(DirectRow& r, double displacement, double speed, const DirectSubstep& s) {
   const double kick_time = s.part * s.h;
   double factor, wanted;
   if (s.leapfrog) {
     const bool slow = r.stiffness * r.mobility * s.h * s.h < 1.0;
-    const double inertia = (slow ? 1.0 / 12.0 : 0.25) * s.h * s.h * r.stiffness, half = 0.5 * kick_time * r.damper;
+    const double inertia = (slow ? 1.0 / 12.0 : 0.25) * s.h * s.h * r.stiffness,
+                 half = 0.5 * kick_time * r.damper;
     factor = half + inertia;
     wanted = (inertia - half) * speed - kick_time * r.stiffness * displacement;
   } else {
@@ -80,7 +85,8 @@ void setSpring(DirectRow& r, double displacement, double speed, const DirectSubs
 
 void setDrive(const AxisConstraint& c, DirectRow& r, double speed, const DirectSubstep& s) {
   const double kick_time = s.part * s.h;
-  r.drive_bound = c.motor_max_force > 0.0f ? c.motor_max_force * kick_time : std::numeric_limits<double>::infinity();
+  r.drive_bound =
+      c.motor_max_force > 0.0f ? c.motor_max_force * kick_time : std::numeric_limits<double>::infinity();
   if (r.stiffness > 0.0) return setSpring(r, r.value - c.spring_target, speed, s);
   if (c.motor_max_force > 0.0f) {
     r.drive_compliance = 0.0;
@@ -136,7 +142,7 @@ bool passesLimit(DirectJoint& j, int i, std::span<DirectBody> bodies, bool veloc
   } else {
     const double lower = c.lower + r.keep * std::min(r.value - c.lower, 0.0);
     const double upper = c.upper + r.keep * std::max(r.value - c.upper, 0.0);
-    below = r.next < lower - tolerance, above = r.next > upper + tolerance;
+    below = r.next<lower - tolerance, above = r.next> upper + tolerance;
   }
   if (below) enter(j, r, RowState::Lower);
   if (above) enter(j, r, RowState::Upper);
@@ -180,8 +186,10 @@ void chooseRows(DirectJoint& j) {
     r.has_drive = hasDrive(c);
     enter(j, r, isFixed(c) ? RowState::Fixed : restState(r));
   }
-  const double arms = static_cast<double>(j.joint->anchor_a.norm()) + static_cast<double>(j.joint->anchor_b.norm());
-  j.length = std::max(arms, 1e-6);
+  // The arm of a fixed body may be as long as the world is wide, and says nothing about the joint.
+  const double arm_a = j.moves[0] ? j.joint->anchor_a.norm() : 0.0f;
+  const double arm_b = j.moves[1] ? j.joint->anchor_b.norm() : 0.0f;
+  j.length = std::max(arm_a + arm_b, 1e-6);
 }
 
 void beginRows(DirectJoint& j, int substeps, bool warm_start) {
@@ -242,7 +250,8 @@ double rowSpeed(const DirectJoint& j, int row, std::span<const DirectBody> bodie
   for (int side = 0; side < 2; ++side) {
     const DirectBody& b = bodies[j.body[side]];
     const double* m = j.jacobian[side][row];
-    speed += (m[0] * b.v[0] + m[1] * b.v[1] + m[2] * b.v[2]) + (m[3] * b.w[0] + m[4] * b.w[1] + m[5] * b.w[2]);
+    speed +=
+        (m[0] * b.v[0] + m[1] * b.v[1] + m[2] * b.v[2]) + (m[3] * b.w[0] + m[4] * b.w[1] + m[5] * b.w[2]);
   }
   return speed;
 }
@@ -276,8 +285,8 @@ bool updateRows(DirectJoint& j, std::span<DirectBody> bodies, bool velocity_only
       changed |= leaveState(j, i, bodies);
     } else if (r.clamped != 0) {
       const double lacking = r.state == RowState::Drive ? r.drive_speed - rowSpeed(j, i, bodies)
-                             : velocity_only           ? -rowSpeed(j, i, bodies)
-                                                       : r.goal - r.next;
+                             : velocity_only            ? -rowSpeed(j, i, bodies)
+                                                        : r.goal - r.next;
       if (lacking * r.clamped < -rowTolerance(j, r)) {
         r.held = true, r.clamped = 0;
         changed = true;
@@ -287,8 +296,8 @@ bool updateRows(DirectJoint& j, std::span<DirectBody> bodies, bool velocity_only
   return changed;
 }
 
-RowResidual rowResidual(const DirectJoint& j, int row, std::span<const DirectBody> bodies, const DirectSubstep& s,
-                        bool velocity_only) {
+RowResidual rowResidual(const DirectJoint& j, int row, std::span<const DirectBody> bodies,
+                        const DirectSubstep& s, bool velocity_only) {
   const DirectRow& r = j.row[row];
   const double tolerance = rowTolerance(j, r) / s.h;
   if (r.state == RowState::Drive)

@@ -1,7 +1,8 @@
 // The rows of one joint inside the direct solver: what each axis asks for, and which rows take part.
 //
-// Rows are equations that the solve holds exactly; limits, motors and bounded forces are brought in and taken out
-// between solves (active set), until no row pulls that may only push, none exceeds its bound, and no limit is passed.
+// Rows are equations that the solve holds exactly; limits, motors and bounded forces are brought in and taken
+// out between solves (active set), until no row pulls that may only push, none exceeds its bound, and no
+// limit is passed.
 #pragma once
 
 #include <cstdint>
@@ -23,24 +24,24 @@ enum class RowState : uint8_t {
 struct DirectRow {
   uint8_t axis = 0;
   RowState state = RowState::Off;
-  bool held = false;       // takes part in the solve
-  int8_t clamped = 0;      // sign of the bound that the impulse stays at
+  bool held = false;   // takes part in the solve
+  int8_t clamped = 0;  // sign of the bound that the impulse stays at
   bool has_drive = false;
-  double value = 0.0;      // coordinate at the current pose
-  double next = 0.0;       // coordinate where the current velocities lead
-  double goal = 0.0;       // coordinate to reach, of Fixed, Lower and Upper
+  double value = 0.0;             // coordinate at the current pose
+  double next = 0.0;              // coordinate where the current velocities lead
+  double goal = 0.0;              // coordinate to reach, of Fixed, Lower and Upper
   double drive_compliance = 0.0;  // speed that an impulse of one leaves over
   double drive_speed = 0.0;
-  double drive_bound = 0.0;  // N s
-  double bound = 0.0;        // N s, of Fixed, Lower and Upper
-  double keep = 0.0;         // share of the position error that a sub-step leaves
-  double softness = 0.0;     // (1 - weight) / weight
-  double stiffness = 0.0;    // N/m, of the spring
-  double damper = 0.0;       // N s/m
-  double damping_rate = 0.0; // 1/s, of a damper without spring
-  double mobility = 0.0;     // 1/kg, along the axis with the fixed rows of the joint held
-  double diagonal = 0.0;     // 1/kg, of the system
-  double impulse = 0.0;      // N s, gathered in the current sub-step
+  double drive_bound = 0.0;   // N s
+  double bound = 0.0;         // N s, of Fixed, Lower and Upper
+  double keep = 0.0;          // share of the position error that a sub-step leaves
+  double softness = 0.0;      // (1 - weight) / weight
+  double stiffness = 0.0;     // N/m, of the spring
+  double damper = 0.0;        // N s/m
+  double damping_rate = 0.0;  // 1/s, of a damper without spring
+  double mobility = 0.0;      // 1/kg, along the axis with the fixed rows of the joint held
+  double diagonal = 0.0;      // 1/kg, of the system
+  double impulse = 0.0;       // N s, gathered in the current sub-step
 };
 
 struct DirectJoint {
@@ -58,11 +59,11 @@ struct DirectJoint {
 
 // How a sub-step is cut up.
 struct DirectSubstep {
-  double h;        // s, of the motion
-  double part;     // share of h that forces act for: 1, or 0.5 at the ends of a leapfrog step
-  bool leapfrog;   // velocities belong to the middle of the sub-step
-  bool linear;     // positions at the end of the sub-step are taken from the Jacobian
-  double slop;     // share of `length` below which a position error counts as none
+  double h;       // s, of the motion
+  double part;    // share of h that forces act for: 1, or 0.5 at the ends of a leapfrog step
+  bool leapfrog;  // velocities belong to the middle of the sub-step
+  bool linear;    // positions at the end of the sub-step are taken from the Jacobian
+  double slop;    // share of `length` below which a position error counts as none
 };
 
 // Chooses the rows of a joint, when its kind or locks have changed.
@@ -86,8 +87,8 @@ void applyRow(const DirectJoint& j, int row, double impulse, std::span<DirectBod
 // Coordinates at the predicted poses.
 void measureNext(DirectJoint& j, std::span<const DirectBody> bodies);
 
-// Brings rows in or takes them out. velocity_only: at the current pose instead of the predicted one. first: nothing is
-// solved yet, rows only come in. Returns whether anything changed.
+// Brings rows in or takes them out. velocity_only: at the current pose instead of the predicted one. first:
+// nothing is solved yet, rows only come in. Returns whether anything changed.
 bool updateRows(DirectJoint& j, std::span<DirectBody> bodies, bool velocity_only, bool first);
 
 // Speed that row `row` lacks, and as `tolerance` what of that counts as nothing.
@@ -95,7 +96,7 @@ struct RowResidual {
   double speed;
   double tolerance;
 };
-RowResidual rowResidual(const DirectJoint& j, int row, std::span<const DirectBody> bodies, const DirectSubstep& s,
-                        bool velocity_only);
+RowResidual rowResidual(const DirectJoint& j, int row, std::span<const DirectBody> bodies,
+                        const DirectSubstep& s, bool velocity_only);
 
 }  // namespace pfx

@@ -32,8 +32,8 @@ Neighbours graphOf(const std::vector<std::vector<Side>>& sides, size_t num_joint
   return n;
 }
 
-// Eliminates joint after joint; columns[p] are the joints that the joint at position p is coupled to at that moment.
-// False when that becomes too much work.
+// Eliminates joint after joint; columns[p] are the joints that the joint at position p is coupled to at that
+// moment. False when that becomes too much work.
 bool eliminate(Neighbours& graph, uint64_t max_products, DirectStructure& out,
                std::vector<std::vector<uint32_t>>& columns) {
   std::set<std::pair<size_t, uint32_t>> queue;
@@ -59,8 +59,10 @@ bool eliminate(Neighbours& graph, uint64_t max_products, DirectStructure& out,
 }
 
 uint32_t findBlock(const DirectStructure& s, uint32_t row, uint32_t column) {
-  const auto begin = s.entries.begin() + s.column_begin[column], end = s.entries.begin() + s.column_begin[column + 1];
-  const auto at = std::lower_bound(begin, end, row, [](const DirectStructure::Entry& e, uint32_t r) { return e.row < r; });
+  const auto begin = s.entries.begin() + s.column_begin[column],
+             end = s.entries.begin() + s.column_begin[column + 1];
+  const auto at = std::lower_bound(begin, end, row,
+                                   [](const DirectStructure::Entry& e, uint32_t r) { return e.row < r; });
   return static_cast<uint32_t>(at - s.entries.begin());
 }
 
@@ -68,7 +70,8 @@ void listUpdates(DirectStructure& s) {
   for (uint32_t p = 0; p + 1 < s.column_begin.size(); ++p)
     for (uint32_t i = s.column_begin[p]; i < s.column_begin[p + 1]; ++i)
       for (uint32_t k = s.column_begin[p]; k <= i; ++k)
-        s.updates.push_back(k == i ? DirectStructure::kDiagonal : findBlock(s, s.entries[i].row, s.entries[k].row));
+        s.updates.push_back(k == i ? DirectStructure::kDiagonal
+                                   : findBlock(s, s.entries[i].row, s.entries[k].row));
 }
 
 }  // namespace
@@ -99,7 +102,8 @@ bool buildDirectStructure(std::span<const JointEnds> joints, uint32_t num_bodies
     for (const Side& x : at_body)
       for (const Side& y : at_body)
         if (position[x.joint] > position[y.joint])
-          out.couplings.push_back({x.joint, y.joint, x.side, y.side, findBlock(out, position[x.joint], position[y.joint])});
+          out.couplings.push_back(
+              {x.joint, y.joint, x.side, y.side, findBlock(out, position[x.joint], position[y.joint])});
   return true;
 }
 

@@ -1,8 +1,10 @@
-// Symbolic part of the direct joint solver: which blocks of the factor exist, and in which order to make them.
+// Symbolic part of the direct joint solver: which blocks of the factor exist, and in which order to make
+// them.
 //
-// The matrix has one block row a joint; two joints are coupled when they share a body that both can move. Joints are
-// eliminated by minimum degree: for a tree that begins at the leaves and adds no block, loops add some. Computed once a
-// topology. Source: T. Davis, Direct Methods for Sparse Linear Systems, 2006, chapters 4 and 7.
+// The matrix has one block row a joint; two joints are coupled when they share a body that both can move.
+// Joints are eliminated by minimum degree: for a tree that begins at the leaves and adds no block, loops add
+// some. Computed once a topology. Source: T. Davis, Direct Methods for Sparse Linear Systems, 2006, chapters
+// 4 and 7.
 #pragma once
 
 #include <cstdint>
@@ -30,8 +32,8 @@ struct DirectStructure {
   std::vector<uint32_t> order;         // local joint index by position
   std::vector<uint32_t> column_begin;  // (joints + 1), into entries; entry k owns off-diagonal block k
   std::vector<Entry> entries;          // rows ascending in each column
-  // For each column, for each pair (i, k <= i) of its entries: the block that the product changes; diagonal blocks of
-  // the row are given as kDiagonal.
+  // For each column, for each pair (i, k <= i) of its entries: the block that the product changes; diagonal
+  // blocks of the row are given as kDiagonal.
   std::vector<uint32_t> updates;
   std::vector<Coupling> couplings;
 
@@ -41,8 +43,8 @@ struct DirectStructure {
   uint64_t blockProducts() const { return updates.size(); }
 };
 
-// num_bodies: local body indices in `joints` are below it. Returns false, with the structure empty, when the factor
-// would need more than `max_products` block products.
+// num_bodies: local body indices in `joints` are below it. Returns false, with the structure empty, when the
+// factor would need more than `max_products` block products.
 bool buildDirectStructure(std::span<const JointEnds> joints, uint32_t num_bodies, uint64_t max_products,
                           DirectStructure& out);
 

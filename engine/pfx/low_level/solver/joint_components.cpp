@@ -5,9 +5,9 @@
 namespace pfx {
 namespace {
 
-// A component is solved directly when each joint costs no more than this many block products a factor (a chain: one, a
-// ragdoll: three), and when it has no more than this many loops a joint. The first keeps a hub with very many joints
-// out, the second saves the attempt on nets and grids.
+// A component is solved directly when each joint costs no more than this many block products a factor (a
+// chain: one, a ragdoll: three), and when it has no more than this many loops a joint. The first keeps a hub
+// with very many joints out, the second saves the attempt on nets and grids.
 constexpr uint64_t kMaxProductsPerJoint = 24;
 constexpr uint64_t kFreeProducts = 4096;
 constexpr size_t kFreeLoops = 32;
@@ -32,8 +32,10 @@ uint32_t rowsOf(const Joint& j) {
 
 }  // namespace
 
-bool JointComponents::update(std::span<const JointConstraint> joints, uint32_t num_bodies, JointSolver solver) {
-  const bool same = joints_.size() == joints.size() && std::equal(joints.begin(), joints.end(), joints_.begin());
+bool JointComponents::update(std::span<const JointConstraint> joints, uint32_t num_bodies,
+                             JointSolver solver) {
+  const bool same =
+      joints_.size() == joints.size() && std::equal(joints.begin(), joints.end(), joints_.begin());
   bool same_rows = same;
   rows_.resize(joints.size());
   for (size_t i = 0; i < joints.size(); ++i) {

@@ -1,7 +1,8 @@
 // Components of the joint graph, and which solver each of them gets.
 //
-// A component is the set of joints that movable bodies link. Trees and graphs with few loops are solved directly; where
-// loops would fill the factor, joints become soft rows instead. Made anew only when joints change.
+// A component is the set of joints that movable bodies link. Trees and graphs with few loops are solved
+// directly; where loops would fill the factor, joints become soft rows instead. Made anew only when joints
+// change.
 #pragma once
 
 #include <deque>
@@ -14,19 +15,13 @@
 
 namespace pfx {
 
-enum class JointSolver : uint8_t {
-  Auto,    // chosen by component
-  Direct,  // where the factor is not out of all proportion
-  Soft,
-};
-
 struct JointComponent {
   bool is_direct = false;
-  DirectComponent direct;                // when is_direct
+  DirectComponent direct;  // when is_direct
   std::vector<JointConstraint> joints;
-  std::vector<uint32_t> bodies;          // indices of states, ascending, movable or not
-  std::vector<uint32_t> solver_index;    // by entry of bodies; while it is solved together with contacts
-  std::vector<BodyMotion> motions;       // by entry of bodies
+  std::vector<uint32_t> bodies;        // indices of states, ascending, movable or not
+  std::vector<uint32_t> solver_index;  // by entry of bodies; while it is solved together with contacts
+  std::vector<BodyMotion> motions;     // by entry of bodies
 };
 
 class JointComponents {

@@ -1,4 +1,4 @@
-// One joint to be solved, and which of its bodies the solver may move.
+// One joint to be solved, which of its bodies the solver may move, and by which solver.
 #pragma once
 
 #include <cstdint>
@@ -6,6 +6,12 @@
 #include "pfx/base_level/joint/joint.h"
 
 namespace pfx {
+
+enum class JointSolver : uint8_t {
+  Auto,    // chosen by component
+  Direct,  // where the factor is not out of all proportion
+  Soft,
+};
 
 struct JointConstraint {
   Joint* joint = nullptr;

@@ -1,31 +1,39 @@
-// The joints' part of the sub-step loop: components that are solved together with contacts.
+// The joints' part of the sub-step loop: components that are solved together with contacts, and soft joints.
 #pragma once
 
 #include <span>
 #include <vector>
 
 #include "pfx/low_level/solver/joint_components.h"
+#include "pfx/low_level/solver/joint_soft.h"
 #include "pfx/low_level/task/task_manager.h"
 
 namespace pfx {
 
 class JointStep {
  public:
-  void clear() { direct_.clear(); }
-  void add(JointComponent& component) { direct_.push_back(&component); }
-  std::span<JointComponent* const> components() { return direct_; }
-  bool empty() const { return direct_.empty(); }
+  void clear();
+  void add(JointComponent& component);
+  bool empty() const { return components_.empty(); }
+  std::span<JointComponent* const> components() { return components_; }
 
-  // For each sub-step: [warm start] -> push, as often as contacts are pushed -> (motion) -> relax.
-  void warmStart(std::span<SolverBody> bodies, TaskManager& tasks);
+  // Takes over what the components need of the step; solver_index of the components is set, and direct
+  // components have begun. `bodies` as in SoftStep::prepare.
+  void prepare(std::span<const RigidState> states, std::span<const uint8_t> is_dynamic,
+               std::span<const SolverBody> bodies, const SoftJointParams& params, TaskManager& tasks);
+
+  // For each sub-step: start -> push, as often as contacts are pushed -> (motion) -> relax.
+  void start(std::span<SolverBody> bodies, bool first, TaskManager& tasks);
   void push(std::span<SolverBody> bodies, TaskManager& tasks);
   void relax(std::span<SolverBody> bodies, TaskManager& tasks);
 
-  // Writes forces back to the joints.
-  void end();
+  // Writes forces back to the joints; states still of the start of the step.
+  void end(std::span<const RigidState> states, TaskManager& tasks);
 
  private:
+  std::vector<JointComponent*> components_;
   std::vector<JointComponent*> direct_;
+  SoftJoints soft_;
 };
 
 }  // namespace pfx

@@ -17,6 +17,7 @@
 
 #include "pfx/base_level/collision/contact_manifold.h"
 #include "pfx/base_level/collision/pair.h"
+#include "pfx/base_level/joint/joint.h"
 #include "pfx/base_level/error.h"
 #include "pfx/base_level/rigid_body/rigid_body.h"
 #include "pfx/base_level/rigid_body/rigid_state.h"
@@ -108,6 +109,10 @@ class DebugRender {
   // One point and one line along the outward normal, for each contact point and visible body of the pair.
   void renderContact(std::span<const RigidState> states, const Pair& pair,
                      std::span<const ContactManifold> manifolds);
+
+  // Two points and six lines: anchors and frames of the joint in both bodies; a line for the range of each limited
+  // translation, an arc for that of each limited rotation.
+  void renderJoint(const Joint& joint, const Transform& body_a, const Transform& body_b);
 
   // The large meshes of all visible bodies.
   void renderLargeMesh(std::span<const RigidState> states, std::span<const Collidable> collidables,

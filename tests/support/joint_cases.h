@@ -43,8 +43,8 @@ inline BodyId addPost(World& world, const Vec3& at = Vec3::Zero()) {
                         .filter_self = 0});
 }
 
-// A rod whose long side is its y axis, its middle at `at`, turned by `angle` (rad) about z from hanging. Collides with
-// nothing.
+// A rod whose long side is its y axis, its middle at `at`, turned by `angle` (rad) about z from hanging.
+// Collides with nothing.
 struct Rod {
   float length = 1.0f, width = 0.1f;  // m
   float mass = 1.0f;                  // kg
@@ -58,7 +58,8 @@ inline BodyId addRod(World& world, const Rod& rod, const Vec3& at, double angle)
 }
 
 inline Vec3 downAt(double angle, double length) {
-  return Vec3(static_cast<float>(length * std::sin(angle)), static_cast<float>(-length * std::cos(angle)), 0.0f);
+  return Vec3(static_cast<float>(length * std::sin(angle)), static_cast<float>(-length * std::cos(angle)),
+              0.0f);
 }
 
 inline double angleAboutZ(const RigidState& s) {

@@ -1,0 +1,112 @@
+// Continuous collision: what moves far in one step is stopped where it first touches something, so that
+// nothing passes through anything. The rest of the step is lost to it; the next one finds the contact and
+// deals with the impact.
+#include <algorithm>
+
+#include "pfx/base_level/math/trig.h"
+#include "pfx/high_level/pipeline/stages.h"
+#include "pfx/high_level/world/world_impl.h"
+#include "pfx/low_level/continuous/time_of_impact.h"
+
+namespace pfx::stage {
+namespace {
+
+// Distances as shares of a body's smallest half extent: a body is fast when its surface moves farther than
+// the first, and stops when nearer than the second, which is within the margin that makes contacts.
+constexpr float kFast = 0.5f;
+constexpr float kStop = 0.005f;
+
+Vec3 rotationVector(const Quat& from, const Quat& to) {
+  Quat turn = to * from.conjugate();
+  if (turn.w() < 0.0f) turn.coeffs() = -turn.coeffs();
+  const float sine = turn.vec().norm();
+  if (sine == 0.0f) return Vec3::Zero();
+  return 2.0f * atan2(sine, turn.w()) / sine * turn.vec();
+}
+
+Sweep sweepOf(const World::Impl& w, uint32_t i) {
+  const RigidState& s = w.store.states[i];
+  if (!moves(s)) return {.start = s.pose()};
+  const Transform& start = w.start_poses[i];
+  return {start, s.position - start.position, rotationVector(start.orientation, s.orientation)};
+}
+
+bool isFast(const World::Impl& w, uint32_t i) {
+  const Sweep sweep = sweepOf(w, i);
+  return sweep.motion.norm() + sweep.rotation.norm() * w.store.radius[i] > kFast * w.store.size[i];
+}
+
+// First touch of the bodies of a pair. Bodies that touch already have contacts, which let them slide and roll
+// on each other; only the core of the faster one must not go through.
+Impact firstTouch(const World::Impl& w, const Pair& pair, float tolerance) {
+  const bool touching = !w.contacts.manifolds(pair.contact_id).empty();
+  const auto core = [&](uint32_t i) { return Shape{Sphere{0.5f * w.store.size[i]}, {}}; };
+  const Shape core_a = core(pair.body_a), core_b = core(pair.body_b);
+  auto shapes_a = w.store.collidables[pair.body_a].shapes(),
+       shapes_b = w.store.collidables[pair.body_b].shapes();
+  if (touching && w.is_fast[pair.body_a]) shapes_a = {&core_a, 1};
+  if (touching && w.is_fast[pair.body_b]) shapes_b = {&core_b, 1};
+  const Sweep sweep_a = sweepOf(w, pair.body_a), sweep_b = sweepOf(w, pair.body_b);
+  Impact first;
+  for (const Shape& a : shapes_a)
+    for (const Shape& b : shapes_b) {
+      const Impact impact = timeOfImpact({a, sweep_a, b, sweep_b, tolerance, first.fraction});
+      if (impact.state == Impact::State::Hit) first = impact;
+    }
+  return first;
+}
+
+// How far the obstacle carries what it has stopped during the rest of the step. One that is stopped itself
+// does not.
+Vec3 carriedBy(const World::Impl& w, const Stop& stop) {
+  if (moves(w.store.states[stop.by]) && w.stops[stop.by].fraction < 1.0f) return Vec3::Zero();
+  const Sweep sweep = sweepOf(w, stop.by);
+  const Vec3 local = sweep.at(stop.fraction).applyInverse(stop.point);
+  return sweep.at(1.0f).apply(local) - stop.point;
+}
+
+}  // namespace
+
+void rememberPoses(World::Impl& w) {
+  w.start_poses.resize(w.store.states.size());
+  for (uint32_t i : w.moving) w.start_poses[i] = w.store.states[i].pose();
+}
+
+void stopAtImpacts(World::Impl& w) {
+  w.is_fast.resize(w.store.states.size());
+  w.stops.resize(w.store.states.size());
+  bool any = false;
+  for (uint32_t i : w.moving) {
+    w.is_fast[i] = isFast(w, i);
+    w.stops[i] = Stop{};
+    any = any || w.is_fast[i];
+  }
+  if (!any) return;
+
+  const auto fast = [&](uint32_t i) { return moves(w.store.states[i]) && w.is_fast[i]; };
+  for (const Pair& pair : w.pairs) {
+    if ((!fast(pair.body_a) && !fast(pair.body_b)) || !w.solves(pair)) continue;
+    const float size = std::min(w.store.size[pair.body_a], w.store.size[pair.body_b]);
+    const Impact impact = firstTouch(w, pair, kStop * size);
+    const auto stop = [&](uint32_t body, uint32_t by) {
+      const bool can_stop = fast(body) && isDynamic(w.store.states[body].motion_type);
+      if (can_stop && impact.fraction < w.stops[body].fraction)
+        w.stops[body] = {impact.fraction, impact.point, by};
+    };
+    stop(pair.body_a, pair.body_b);
+    stop(pair.body_b, pair.body_a);
+  }
+  w.stopped_poses.clear();
+  for (uint32_t i : w.moving) {
+    if (w.stops[i].fraction >= 1.0f) continue;
+    const Transform stopped = sweepOf(w, i).at(w.stops[i].fraction);
+    w.stopped_poses.push_back(
+        {i, {stopped.position + carriedBy(w, w.stops[i]), stopped.orientation.normalized()}});
+  }
+  for (const BodyPose& stopped : w.stopped_poses) {
+    w.store.states[stopped.body].position = stopped.pose.position;
+    w.store.states[stopped.body].orientation = stopped.pose.orientation;
+  }
+}
+
+}  // namespace pfx::stage

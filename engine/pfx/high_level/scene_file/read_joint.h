@@ -1,0 +1,15 @@
+// Joints of a scene file.
+#pragma once
+
+#include "pfx/high_level/scene_file/scene_def.h"
+#include "pfx/high_level/scene_file/xml_element.h"
+
+namespace pfx {
+
+// Whether the tag names a joint: the kinds, and "joint" for a record that was put together axis by axis.
+bool isJointTag(std::string_view tag);
+
+// The joint without its bodies. Throws SceneError.
+SceneJoint readJoint(XmlElement& element);
+
+}  // namespace pfx
