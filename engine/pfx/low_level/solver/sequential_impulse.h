@@ -1,0 +1,87 @@
+// Warm-started sequential impulses on velocities: the plain way of solving contacts and joints, one pair after the other.
+//
+// Rows are set up from the velocities at the start of the step; the iterations gather changes of velocity in the bodies.
+// Position errors enter as a velocity that takes back a share of them (Baumgarte). Contacts have a circular friction
+// cone. Source: E. Catto, Iterative Dynamics with Temporal Coherence, GDC 2005.
+#pragma once
+
+#include <span>
+
+#include "pfx/base_level/joint/joint_coordinates.h"
+#include "pfx/base_level/math/vector.h"
+
+namespace pfx {
+
+// What the solver keeps of a body. Inverse mass and inertia are zero for what does not give way.
+struct ImpulseBody {
+  float dv[3];            // m/s, change since the start of the step
+  float inv_mass;         // 1/kg
+  float dw[3];            // rad/s, world axes
+  float pad;
+  float inv_inertia[9];   // 1/(kg m^2), world axes
+};
+
+// A row along one direction at a point.
+struct ImpulseRow {
+  float normal[3];  // unit, world, from B to A
+  float rhs;        // N s, impulse that would reach the wanted velocity from the start
+  float inv_diag;   // kg, effective mass
+  float lower, upper;
+  float impulse;    // N s, gathered; the start of the next step
+};
+
+struct ImpulsePoint {
+  float arm_a[3];  // m, world, from the centres of mass
+  float arm_b[3];
+  ImpulseRow rows[3];  // normal, two tangents
+};
+
+// A row of a joint.
+struct ImpulseJointRow {
+  float jacobian[12];  // (vA, wA, vB, wB)
+  float rhs;
+  float inv_diag;
+  float lower, upper;
+  float impulse;
+  float weight;        // scales each change of the impulse
+};
+
+// Two bodies that act on each other; one that a OneWay body meets is given as a copy without inverse mass.
+struct ImpulsePair {
+  ImpulseBody& a;
+  ImpulseBody& b;
+};
+
+struct ImpulseContactInput {
+  Vec3 arm_a, arm_b;     // m, world
+  Vec3 velocity;         // m/s, of the point on A against that on B
+  Vec3 normal;           // unit, from B to A
+  float distance;        // m, negative: overlap
+  float restitution;     // 0 .. 1
+  float separate_bias;   // 0 .. 1, share of the overlap that a step takes back
+  float time_step;       // s
+};
+
+// Sets up a point; the impulses in it are kept as the start, projected on the new tangents.
+void setupImpulsePoint(const ImpulseContactInput& input, ImpulsePair pair, ImpulsePoint& point);
+
+struct ImpulseJointInput {
+  const AxisConstraint& axis;  // lock, range, bias, damping, weight; max_force is an impulse in N s here
+  double value;                // of the axis, m or rad
+  const double* jacobian_a;    // (6)
+  const double* jacobian_b;    // (6)
+  float rate;                  // of the value at the start of the step, m/s or rad/s
+  float time_step;             // s
+  bool warm_start;
+};
+void setupImpulseJointRow(const ImpulseJointInput& input, ImpulsePair pair, ImpulseJointRow& row);
+
+// Applies the impulses gathered in the step before.
+void warmStart(ImpulsePair pair, const ImpulsePoint& point);
+void warmStart(ImpulsePair pair, const ImpulseJointRow& row);
+
+// One iteration.
+void solveImpulses(ImpulsePair pair, float friction, ImpulsePoint& point);
+void solveImpulses(ImpulsePair pair, ImpulseJointRow& row);
+
+}  // namespace pfx
