@@ -1,6 +1,7 @@
 #include "pfx/low_level/collision/detect.h"
 
 #include <algorithm>
+#include <bit>
 
 #include "pfx/low_level/collision/recycle.h"
 
@@ -100,9 +101,25 @@ void CollisionDetector::detectPair(const DetectInput& input, uint32_t index, Con
   scratch.storage.insert(scratch.storage.end(), scratch.found.begin(), scratch.found.end());
 }
 
+// Any worker may get the pairs that another one had last time, so all have room for what all of them needed.
+void CollisionDetector::prepareScratch(uint32_t num_workers) {
+  size_t most_found = 0, all_stored = 0, all_pending = 0;
+  scratch_.resize(num_workers);
+  for (const Scratch& s : scratch_) {
+    most_found = std::max(most_found, s.found.capacity());
+    all_stored += s.storage.size();
+    all_pending += s.pending.size();
+  }
+  for (Scratch& s : scratch_) {
+    s.storage.clear(), s.pending.clear(), s.recycled = 0;
+    s.found.reserve(most_found);
+    s.storage.reserve(std::bit_ceil(all_stored));
+    s.pending.reserve(std::bit_ceil(all_pending));
+  }
+}
+
 void CollisionDetector::detect(const DetectInput& input, ContactStore& contacts, TaskManager& tasks) {
-  scratch_.resize(tasks.numWorkers());
-  for (Scratch& s : scratch_) s.storage.clear(), s.pending.clear(), s.recycled = 0;
+  prepareScratch(static_cast<uint32_t>(tasks.numWorkers()));
   tasks.parallelFor(static_cast<uint32_t>(input.pairs.size()), kPairGrain, [&](TaskRange r) {
     for (uint32_t i = r.begin; i < r.end; ++i) detectPair(input, i, contacts, scratch_[r.worker]);
   });

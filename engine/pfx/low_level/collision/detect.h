@@ -51,6 +51,7 @@ class CollisionDetector {
   };
 
   void detectPair(const DetectInput& input, uint32_t pair, ContactStore& contacts, Scratch& scratch) const;
+  void prepareScratch(uint32_t num_workers);
   void assignPending(const DetectInput& input, ContactStore& contacts);
 
   std::vector<Scratch> scratch_;                      // by worker
