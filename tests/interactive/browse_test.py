@@ -90,12 +90,13 @@ class BrowserTest(unittest.TestCase):
                               capture_output=True, check=True).stdout
 
     def still_picture(self):
-        """The picture once nothing moves in it any more: messages fade for a while, longer on a busy machine."""
-        last = self.picture()
-        for _ in range(30):
-            time.sleep(0.7)
+        """The picture once nothing has moved in it for four seconds, longer than a message stays."""
+        last, still = self.picture(), 0
+        for _ in range(60):
+            time.sleep(0.5)
             now = self.picture()
-            if now == last:
+            still = still + 1 if now == last else 0
+            if still == 8:
                 return now
             last = now
         self.fail("the picture of a paused scene goes on changing")
