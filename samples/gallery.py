@@ -53,15 +53,19 @@ def page(vitrine, folder):
 
 
 def readme(path):
-    """One picture a sample: the middle approved frame of its first scene by name."""
+    """One picture a sample: the middle approved frame of the scene with the most to see, by the size of its file."""
     cells = []
     screenshots = path.parent / "screenshots"
     samples = [p for p in screenshots.iterdir() if p.is_dir() and any(p.glob("*.png"))]
     for sample in sorted(samples, key=lambda p: (int((re.match(r"\d+", p.name) or ["999"])[0]), p.name)):
         scenes = sorted({re.sub(r"_\d+$", "", p.stem) for p in sample.glob("*.png")})
-        images = scene_images(screenshots, sample.name, scenes[0])
-        image = images[len(images) // 2][1].relative_to(path.parent).as_posix()
-        cells.append(f"![{title(sample.name)}, {title(scenes[0])}]({image})<br>{title(sample.name)}")
+        middle = {}
+        for scene in scenes:
+            images = scene_images(screenshots, sample.name, scene)
+            middle[scene] = images[len(images) // 2][1]
+        richest = max(scenes, key=lambda scene: middle[scene].stat().st_size)
+        image = middle[richest].relative_to(path.parent).as_posix()
+        cells.append(f"![{title(sample.name)}, {title(richest)}]({image})<br>{title(sample.name)}")
     rows = [cells[i:i + 3] + [""] * (3 - len(cells[i:i + 3])) for i in range(0, len(cells), 3)]
     table = "\n".join(["| | | |", "|---|---|---|", *("| " + " | ".join(row) + " |" for row in rows)])
     text = path.read_text()
