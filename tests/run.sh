@@ -1,13 +1,12 @@
 #!/usr/bin/env bash
 # Builds Vitrine, installing what is missing, and runs every test of the release build, with the golden images.
-# --full, and wherever CI=true: also the engine compiled in other ways, which must give the same bits, and under the
-# address, undefined-behaviour and thread sanitizers.
+# --full: also the engine compiled in other ways, which must give the same bits, and under the address,
+# undefined-behaviour and thread sanitizers.
 set -u
 # shellcheck source=samples/setup.sh
 source "$(dirname "${BASH_SOURCE[0]}")/../samples/setup.sh"
 
 full=no
-[ "${CI:-}" = true ] && full=yes
 case "${1:-}" in
   "") ;;
   --full) full=yes ;;
