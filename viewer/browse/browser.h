@@ -79,6 +79,7 @@ class Browser {
   int width_ = 0, height_ = 0;
   std::string message_;
   float message_left_ = 0.0f;  // s
+  std::vector<int> command_keys_;  // held keys that were pressed together with Shift or Ctrl
   RenderStats stats_;
 };
 

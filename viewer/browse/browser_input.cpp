@@ -32,7 +32,10 @@ pfx::Aabb sceneBounds(const pfx::World& world) {
 }  // namespace
 
 void Browser::handleKeys(const UiInput::Frame& input, float dt) {
+  // A key that came with Shift or Ctrl is a command and does not fly, even if it is let go later than they are.
+  std::erase_if(command_keys_, [&](int key) { return !input.isDown(key); });
   for (const KeyEvent& event : input.keys) {
+    if (event.shift || event.control) command_keys_.push_back(event.key);
     const auto command = commandOf(event);
     // While text is being entered only keys that cannot be part of it are ours.
     if (command &&
@@ -41,9 +44,10 @@ void Browser::handleKeys(const UiInput::Frame& input, float dt) {
   }
   if (ImGui::GetIO().WantTextInput || input.control || input.shift) return;
   pfx::Vec3 way = pfx::Vec3::Zero();
-  const auto pushed = [&](int plus, int minus) {
-    return float(input.isDown(plus)) - float(input.isDown(minus));
+  const auto flies = [&](int key) {
+    return float(input.isDown(key) && std::find(command_keys_.begin(), command_keys_.end(), key) == command_keys_.end());
   };
+  const auto pushed = [&](int plus, int minus) { return flies(plus) - flies(minus); };
   way << pushed('D', 'A'), pushed('E', 'Q'), pushed('W', 'S');
   if (!way.isZero()) camera_.fly(kFlySpeed * dt * way);
 }
