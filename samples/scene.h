@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "pfx/high_level/world/world.h"
+#include "samples/canvas.h"
 
 namespace samples {
 
@@ -22,11 +23,48 @@ struct CameraPose {
   float pitch_deg = 20.0f;               // positive: from above
 };
 
+// A number that may be changed while the scene runs, or takes effect when it is built again.
+struct Parameter {
+  enum class Takes { AtOnce, OnRestart };
+  std::string_view name, unit;
+  float* value;
+  float low, high;
+  Takes takes = Takes::AtOnce;
+};
+
+// A number that proves the scene's point, now.
+struct Reading {
+  std::string_view name, unit;
+  double value;
+  double limit = 0.0;  // the value that it must not exceed; 0: none
+};
+
+// What a person asks of the scene with the keyboard, in the camera's frame.
+struct Controls {
+  float right = 0.0f, forward = 0.0f;  // -1 .. 1
+  float heading = 0.0f;                // rad, yaw of the camera
+  bool run = false, jump = false, crouch = false;
+};
+
+// What is special about a scene. Everything but build() may be left out.
 class Scene {
  public:
   virtual ~Scene() = default;
   virtual void build(pfx::World& world) = 0;                  // adds bodies and joints to an empty world
   virtual void beforeStep(pfx::World& world, float dt) { (void)world, (void)dt; }  // scripted motion
+  virtual void afterStep(pfx::World& world, float dt) { (void)world, (void)dt; }
+  virtual void draw(const pfx::World& world, Canvas& canvas) const { (void)world, (void)canvas; }
+
+  // Hash of what the scene simulates besides the world; 0 when there is nothing.
+  virtual uint64_t stateHash() const { return 0; }
+
+  // Valid as long as the scene; asked for before build() as well.
+  virtual std::vector<Parameter> parameters() { return {}; }
+  virtual std::vector<Reading> readings(const pfx::World& world) const { return (void)world, std::vector<Reading>(); }
+
+  // A scene that a person can steer says so; it follows its script until the first call of control().
+  virtual bool isControlled() const { return false; }
+  virtual void control(const Controls& controls) { (void)controls; }
 };
 
 struct SceneEntry {

@@ -19,6 +19,7 @@ struct RunningScene {
   void stepIn(pfx::World& other) {
     scene->beforeStep(other, kTimeStep);
     other.step(kTimeStep);
+    scene->afterStep(other, kTimeStep);
   }
 
   pfx::World world;

@@ -8,6 +8,7 @@
 #include "viewer/browse/ui_style.h"
 #include "viewer/image/png.h"
 #include "viewer/input_error.h"
+#include "viewer/run/list_canvas.h"
 
 namespace viewer {
 
@@ -97,6 +98,8 @@ void Browser::record() {
     camera_.pose.target = session_.world().states()[pickIndex(selected_)].position;
   list_.camera = camera_.camera();
   view_->add(session_.world(), settings_.overlays);
+  ListCanvas canvas(list_);
+  session_.scene().draw(session_.world(), canvas);
   if (const auto& grab = session_.grab; grab && session_.world().isValid(grab->body)) {
     const pfx::Vec3 held = session_.world().states()[grab->body.index].pose().apply(grab->local);
     list_.add(Line{held, grab->target, 0xffd9480fu, 2.5f, 0});

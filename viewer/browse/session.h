@@ -38,6 +38,7 @@ class Session {
   const SceneSpec& spec() const { return run_->spec(); }
   pfx::World& world() { return run_->world(); }
   const pfx::World& world() const { return run_->world(); }
+  const samples::Scene& scene() const { return run_->scene(); }
 
   // The step that the world shows, and those that it can show.
   uint64_t step() const { return shown_; }

@@ -106,7 +106,7 @@ ordered_json describe(const SceneRun& run, const Measured& m, const Options& opt
                        {"substeps", run.world().def().substeps},
                        {"solver", kSolver},
                        {"threads", options.threads},
-                       {"state_hash", hexText(run.world().stateHash())},
+                       {"state_hash", hexText(run.stateHash())},
                        {"final", figuresJson(m.final)},
                        {"max",
                         {{"max_penetration", m.max_penetration},

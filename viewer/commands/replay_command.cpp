@@ -59,7 +59,7 @@ int draw(const Recording& recording, const Options& options) {
   if (frame.bodies.size() != run.world().states().size()) run.stepTo(frame.step);
   applyFrame(run.world(), frame);
   Capture capture(settings);
-  writePng(options.out, capture.draw(run.world(), run.spec().camera));
+  writePng(options.out, capture.draw(run, run.spec().camera));
   std::printf("%s\n", options.out.c_str());
   return 0;
 }

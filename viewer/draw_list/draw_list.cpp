@@ -52,6 +52,13 @@ void DrawList::begin() {
 }
 
 void DrawList::end() {
+  std::erase_if(transient_, [&](uint64_t key) {
+    const auto batch = batches_.find(key);
+    if (batch != batches_.end() && batch->second.recorded > 0) return false;
+    if (batch != batches_.end()) batches_.erase(batch);
+    meshes_.erase(key);
+    return true;
+  });
   for (auto& [key, batch] : batches_) {
     if (batch.recorded < batch.instances.size()) {
       batch.instances.resize(batch.recorded);

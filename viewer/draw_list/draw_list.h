@@ -128,6 +128,13 @@ class DrawList {
   bool hasMesh(uint64_t key) const { return meshes_.contains(key); }
   // Makes a mesh known under a key of its content. Known keys are left as they are.
   void defineMesh(uint64_t key, MeshData mesh);
+  // Makes a mesh known, with the triangles that make() returns, until a frame ends in which it has no instance.
+  template <class Make>
+  void defineTransientMesh(uint64_t key, const Make& make) {
+    if (meshes_.contains(key)) return;
+    meshes_.emplace(key, make());
+    transient_.push_back(key);
+  }
 
   void add(uint64_t mesh, const Instance& instance) {
     append(mesh, 1, [&](size_t) { return instance; });
@@ -163,6 +170,7 @@ class DrawList {
  private:
   std::map<uint64_t, MeshData>
       meshes_;  // of keys above kRound; ordered, so that pictures do not depend on history
+  std::vector<uint64_t> transient_;  // keys of the meshes that do not stay
   std::map<uint64_t, Batch> batches_;
   std::vector<Line> lines_;
   std::vector<Arrow> arrows_;

@@ -84,7 +84,7 @@ pfx::DebugRenderCallbacks Recorder::callbacks() {
     addBox(*self(r).list_, pose, half_extent, self(r).style(color));
   };
   c.define_solid = [](void* r, uint64_t key, const pfx::Geometry& geometry) {
-    self(r).define(key, geometry);
+    self(r).placements_[key] = placementOf(key, geometry, *self(r).list_);
   };
   c.draw_solids = [](void* r, uint64_t key, std::span<const pfx::SolidInstance> instances) {
     self(r).draw(key, instances);
@@ -92,23 +92,20 @@ pfx::DebugRenderCallbacks Recorder::callbacks() {
   return c;
 }
 
-void Recorder::define(uint64_t key, const pfx::Geometry& geometry) {
-  if (const auto* s = std::get_if<pfx::Sphere>(&geometry)) {
-    placements_[key] = {kRound, Vec3(0.0f, s->radius, s->radius)};
-  } else if (const auto* c = std::get_if<pfx::Capsule>(&geometry)) {
-    placements_[key] = {kRound, Vec3(c->half_length, c->radius, c->radius)};
-  } else if (const auto* b = std::get_if<pfx::Box>(&geometry)) {
-    placements_[key] = {kUnitBox, b->half_extent};
-  } else if (const auto* y = std::get_if<pfx::Cylinder>(&geometry)) {
-    placements_[key] = {kUnitCylinder, Vec3(y->half_length, y->radius, y->radius)};
-  } else {
-    placements_[key] = {key, Vec3::Ones()};
-    if (list_->hasMesh(key)) return;
+Placement placementOf(uint64_t key, const pfx::Geometry& geometry, DrawList& list) {
+  if (const auto* s = std::get_if<pfx::Sphere>(&geometry)) return {kRound, Vec3(0.0f, s->radius, s->radius)};
+  if (const auto* c = std::get_if<pfx::Capsule>(&geometry))
+    return {kRound, Vec3(c->half_length, c->radius, c->radius)};
+  if (const auto* b = std::get_if<pfx::Box>(&geometry)) return {kUnitBox, b->half_extent};
+  if (const auto* y = std::get_if<pfx::Cylinder>(&geometry))
+    return {kUnitCylinder, Vec3(y->half_length, y->radius, y->radius)};
+  if (!list.hasMesh(key)) {
     if (const auto* convex = std::get_if<const pfx::ConvexMesh*>(&geometry); convex && *convex)
-      list_->defineMesh(key, triangulate(**convex));
+      list.defineMesh(key, triangulate(**convex));
     else if (const auto* mesh = std::get_if<const pfx::LargeMesh*>(&geometry); mesh && *mesh)
-      list_->defineMesh(key, triangulate(**mesh));
+      list.defineMesh(key, triangulate(**mesh));
   }
+  return {key, Vec3::Ones()};
 }
 
 void Recorder::draw(uint64_t key, std::span<const pfx::SolidInstance> instances) {

@@ -8,6 +8,15 @@
 
 namespace viewer {
 
+// Where the solid of a geometry is found in a list: its mesh, and the scale that makes it of that mesh.
+struct Placement {
+  uint64_t mesh;
+  pfx::Vec3 scale;
+};
+
+// The placement of a geometry, whose mesh is made known under `key` if it is none of the unit meshes.
+Placement placementOf(uint64_t key, const pfx::Geometry& geometry, DrawList& list);
+
 // Keep one recorder beside each list: it remembers which of the engine's keys became which mesh. The
 // callbacks point to the recorder, which must outlive them.
 class Recorder {
@@ -27,12 +36,7 @@ class Recorder {
   uint32_t pick = 0;        // id of immediate items that follow
 
  private:
-  struct Placement {
-    uint64_t mesh;
-    pfx::Vec3 scale;
-  };
   Line style(pfx::Color color) const { return {{}, {}, color, line_width, pick}; }
-  void define(uint64_t key, const pfx::Geometry& geometry);
   void draw(uint64_t key, std::span<const pfx::SolidInstance> instances);
 
   DrawList* list_;

@@ -89,9 +89,20 @@ void SolidStore::send(Instances& to, const Batch& batch) {
   }
 }
 
+// Meshes that changed from frame to frame would fill the memory of the GPU.
+void SolidStore::forgetGone(const DrawList& list) {
+  std::erase_if(meshes_, [&](const auto& entry) {
+    const uint64_t key = entry.first;
+    if (key <= kRound || list.hasMesh(key)) return false;
+    instances_.erase(key);
+    return true;
+  });
+}
+
 size_t SolidStore::update(const DrawList& list) {
   sent_ = 0;
   draws_.clear();
+  forgetGone(list);
   for (const auto& [key, batch] : list.batches()) {
     if (batch.instances.empty()) continue;
     const Mesh& shape = mesh(key, list);

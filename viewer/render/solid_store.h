@@ -41,6 +41,7 @@ class SolidStore {
     std::vector<uint64_t> block_revisions;
   };
   const Mesh& mesh(uint64_t key, const DrawList& list);
+  void forgetGone(const DrawList& list);
   void send(Instances& to, const Batch& batch);
   void sortTranslucent(const DrawList& list);
   SolidDraw describe(GLuint array, const Mesh& mesh, GLuint instances, size_t first);

@@ -2,6 +2,7 @@
 #include "viewer/run/capture.h"
 
 #include "viewer/input_error.h"
+#include "viewer/run/list_canvas.h"
 
 namespace viewer {
 
@@ -10,13 +11,15 @@ Capture::Capture(const CaptureSettings& settings)
       context_(makeContext({.backend = settings.backend})),
       renderer_(*context_, {.quality = settings.quality, .shader_dir = {}}) {}
 
-Image Capture::draw(const pfx::World& world, const samples::CameraPose& camera) {
+Image Capture::draw(const SceneRun& run, const samples::CameraPose& camera) {
   // A fresh list each time: a picture must not depend on what was drawn before it.
   DrawList list;
   WorldView view(list);
   list.begin();
   list.camera = orbitCamera(camera);
-  view.add(world, settings_.overlays);
+  view.add(run.world(), settings_.overlays);
+  ListCanvas canvas(list);
+  run.scene().draw(run.world(), canvas);
   list.end();
   renderer_.draw({.width = settings_.width, .height = settings_.height}, list);
   return renderer_.readBack();
@@ -27,7 +30,7 @@ void Capture::render(const SceneSpec& scene, std::span<const int> frames,
   SceneRun run(scene, settings_.run);
   for (int frame : frames) {
     run.stepTo(uint64_t(frame));
-    use({frame, run.world().stateHash(), draw(run.world(), scene.camera)});
+    use({frame, run.stateHash(), draw(run, scene.camera)});
   }
 }
 

@@ -1,6 +1,10 @@
 // Runs a scene.
 #include "viewer/run/scene_run.h"
 
+#include <array>
+
+#include "pfx/util/state_hash/state_hash.h"
+
 namespace viewer {
 namespace {
 
@@ -21,6 +25,14 @@ SceneRun::SceneRun(const SceneSpec& spec, const RunSettings& settings)
 void SceneRun::step() {
   scene_->beforeStep(world_, settings_.dt);
   world_.step(settings_.dt);
+  scene_->afterStep(world_, settings_.dt);
+}
+
+uint64_t SceneRun::stateHash() const {
+  const uint64_t own = scene_->stateHash();
+  if (own == 0) return world_.stateHash();
+  const std::array<uint64_t, 2> both = {world_.stateHash(), own};
+  return pfx::hashBytes(std::as_bytes(std::span(both)));
 }
 
 void SceneRun::stepTo(uint64_t steps) {

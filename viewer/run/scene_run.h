@@ -21,13 +21,18 @@ class SceneRun {
   // Builds the scene. Throws what the scene throws.
   explicit SceneRun(const SceneSpec& spec, const RunSettings& settings = {});
 
-  void step();                  // the scene's script, then one step of the world
+  void step();                  // the scene's script round one step of the world
   void stepTo(uint64_t steps);  // until so many steps were made
 
   const SceneSpec& spec() const { return spec_; }
   const RunSettings& settings() const { return settings_; }
   pfx::World& world() { return world_; }
   const pfx::World& world() const { return world_; }
+  samples::Scene& scene() { return *scene_; }
+  const samples::Scene& scene() const { return *scene_; }
+
+  // Of the world, and of what the scene simulates besides it.
+  uint64_t stateHash() const;
 
  private:
   SceneSpec spec_;

@@ -1,0 +1,44 @@
+#include "viewer/run/list_canvas.h"
+
+#include "pfx/util/debug_render/geometry_key.h"
+#include "pfx/util/state_hash/state_hash.h"
+#include "viewer/draw_list/recorder.h"
+
+namespace viewer {
+
+using pfx::Vec3;
+
+void ListCanvas::line(const Vec3& from, const Vec3& to, const samples::Stroke& stroke) {
+  list_.add(Line{from, to, stroke.color, stroke.width});
+}
+
+void ListCanvas::arrow(const Vec3& from, const Vec3& to, const samples::Stroke& stroke) {
+  list_.add(Arrow{from, to, stroke.color, stroke.width});
+}
+
+void ListCanvas::point(const Vec3& position, const samples::Stroke& stroke) {
+  list_.add(Point{position, stroke.color, stroke.width});
+}
+
+void ListCanvas::label(const Vec3& position, std::string_view text) {
+  list_.add(Label{.position = position, .text = std::string(text)});
+}
+
+void ListCanvas::solid(const pfx::Geometry& geometry, const pfx::Transform& pose, const samples::Paint& paint) {
+  const Placement place = placementOf(pfx::geometryKey(geometry), geometry, list_);
+  list_.add(place.mesh, {pose.position, pose.orientation, place.scale, paint.color, uint32_t(paint.finish), 0});
+}
+
+// A sheet is drawn as two surfaces, back to back, since only front faces are drawn.
+void ListCanvas::surface(const samples::Surface& surface, const samples::Paint& paint) {
+  std::vector<uint32_t> indices(surface.indices.begin(), surface.indices.end());
+  if (surface.two_sided)
+    for (size_t i = 0; i + 3 <= surface.indices.size(); i += 3)
+      indices.insert(indices.end(), {surface.indices[i], surface.indices[i + 2], surface.indices[i + 1]});
+  const uint64_t key =
+      pfx::hashBytes(std::as_bytes(surface.points)) ^ pfx::hashBytes(std::as_bytes(std::span(indices)));
+  list_.defineTransientMesh(key, [&] { return makeMesh(surface.points, indices); });
+  list_.add(key, {.color = paint.color, .finish = uint32_t(paint.finish)});
+}
+
+}  // namespace viewer
