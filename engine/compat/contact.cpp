@@ -38,6 +38,8 @@ int pointToLeaveOut(const PfxContactPoint* const (&points)[5]) {
   return out;
 }
 
+constexpr PfxFloat kSamePoint = 0.02f;  // m, how far a point may wander from step to step
+
 // One pair of bodies while its contacts are looked for.
 struct Detection {
   const PfxRigidState &a, &b;
@@ -45,14 +47,23 @@ struct Detection {
   const PfxContactManifold old;
 };
 
+// A point takes over the impulses of the point that it continues: the one of the same features, or, as features change
+// when another face of a pair becomes the reference, the nearest one of the same shapes.
 void inherit(PfxContactPoint& point, const PfxContactManifold& old) {
+  const PfxContactPoint* from = nullptr;
+  PfxFloat nearest = kSamePoint * kSamePoint;
   for (int i = 0; i < old.getNumContacts(); ++i) {
     const PfxContactPoint& o = old.getContactPoint(i);
-    if (o.m_feature != point.m_feature || o.m_shapeIdA != point.m_shapeIdA || o.m_shapeIdB != point.m_shapeIdB) continue;
-    point.m_duration = static_cast<PfxUInt8>(SCE_PFX_MIN(o.m_duration + 1, 255));
-    for (int r = 0; r < 3; ++r) point.m_constraintRow[r] = o.m_constraintRow[r];
-    return;
+    if (o.m_shapeIdA != point.m_shapeIdA || o.m_shapeIdB != point.m_shapeIdB) continue;
+    const PfxFloat away = lengthSqr(pfxReadVector3(o.m_localPointA) - pfxReadVector3(point.m_localPointA));
+    if (o.m_feature != point.m_feature && away >= nearest) continue;
+    from = &o;
+    if (o.m_feature == point.m_feature) break;
+    nearest = away;
   }
+  if (from == nullptr) return;
+  point.m_duration = static_cast<PfxUInt8>(SCE_PFX_MIN(from->m_duration + 1, 255));
+  for (int r = 0; r < 3; ++r) point.m_constraintRow[r] = from->m_constraintRow[r];
 }
 
 PfxSubData subData(const pfx::ContactPoint& p, const PfxShape& a, const PfxShape& b) {
@@ -80,11 +91,11 @@ void addPoints(Detection& d, const ShapePair& shapes, const pfx::ContactManifold
     PfxContactPoint point;
     point.m_shapeIdA = shapes.index_a, point.m_shapeIdB = shapes.index_b;
     point.m_feature = p.feature;
+    pfxStoreVector3(compat(p.local_a), point.m_localPointA);
+    pfxStoreVector3(compat(p.local_b), point.m_localPointB);
     inherit(point, d.old);
     point.m_subData = subData(p, shapes.a, shapes.b);
     point.m_distance = p.distance;
-    pfxStoreVector3(compat(p.local_a), point.m_localPointA);
-    pfxStoreVector3(compat(p.local_b), point.m_localPointB);
     pfxStoreVector3(compat(-found.normal), point.m_constraintRow[0].m_normal);
     d.manifold.addContactPoint(point);
   }
