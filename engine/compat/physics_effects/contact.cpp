@@ -1,10 +1,10 @@
-#include "compat/contact.h"
+#include "compat/physics_effects/contact.h"
 
 #include <algorithm>
 #include <cfloat>
 #include <vector>
 
-#include "compat/native.h"
+#include "compat/physics_effects/native.h"
 #include "pfx/base_level/collision/mesh_contact.h"
 #include "pfx/base_level/collision/pair_table.h"
 #include "pfx/base_level/shape/collidable.h"
@@ -106,6 +106,10 @@ struct Scratch {
   pfx::MeshContactScratch mesh;
   std::vector<pfx::ContactManifold> found;
 };
+Scratch& scratchOfThread() {
+  thread_local Scratch scratch;
+  return scratch;
+}
 
 void collide(Detection& d, const ShapePair& shapes, Scratch& scratch) {
   const pfx::Shape a = native(shapes.a), b = native(shapes.b);
@@ -144,20 +148,33 @@ void detectPair(Detection& d, const PfxCollidable& a, const PfxCollidable& b, Sc
 template <class Param>
 PfxInt32 check(const Param& p) {
   if (p.numContactPairs == 0) return SCE_PFX_OK;
-  if (p.contactPairs == nullptr || p.offsetContactManifolds == nullptr || p.offsetRigidStates == nullptr)
-    return SCE_PFX_ERR_INVALID_VALUE;
-  if (!aligned16(p.contactPairs)) return SCE_PFX_ERR_INVALID_ALIGN;
-  for (PfxUInt32 i = 0; i < p.numContactPairs; ++i) {
-    const PfxConstraintPair& pair = p.contactPairs[i];
-    if (pfxGetRigidBodyIdA(pair) >= p.numRigidBodies || pfxGetRigidBodyIdB(pair) >= p.numRigidBodies)
-      return SCE_PFX_ERR_OUT_OF_RANGE;
-  }
-  return SCE_PFX_OK;
+  if (p.offsetContactManifolds == nullptr || p.offsetRigidStates == nullptr) return SCE_PFX_ERR_INVALID_VALUE;
+  return checkPairs(p.contactPairs, p.numContactPairs, p.numRigidBodies);
 }
 
 constexpr uint32_t kPairGrain = 64;
 
+constexpr size_t kMeshContactRoom = 128;  // normals that a body may meet on a mesh before memory is taken in a step
+
 }  // namespace
+
+PfxInt32 checkPairs(const PfxConstraintPair* pairs, PfxUInt32 count, PfxUInt32 num_bodies) {
+  if (count == 0) return SCE_PFX_OK;
+  if (pairs == nullptr) return SCE_PFX_ERR_INVALID_VALUE;
+  if (!aligned16(pairs)) return SCE_PFX_ERR_INVALID_ALIGN;
+  for (PfxUInt32 i = 0; num_bodies > 0 && i < count; ++i)
+    if (pfxGetRigidBodyIdA(pairs[i]) >= num_bodies || pfxGetRigidBodyIdB(pairs[i]) >= num_bodies)
+      return SCE_PFX_ERR_OUT_OF_RANGE;
+  return SCE_PFX_OK;
+}
+
+void reserveMeshContacts() {
+  Scratch& scratch = scratchOfThread();
+  scratch.mesh.clusters.reserve(kMeshContactRoom);
+  scratch.mesh.vertices.reserve(kMeshContactRoom);
+  scratch.mesh.planes.reserve(kMeshContactRoom);
+  scratch.found.reserve(kMeshContactRoom);
+}
 
 void PfxContactPoint::reset() {
   m_duration = m_shapeIdA = m_shapeIdB = 0;
@@ -212,7 +229,7 @@ PfxInt32 pfxDetectCollision(PfxDetectCollisionParam& param, PfxTaskManager* task
   if (const PfxInt32 error = check(param); error != SCE_PFX_OK) return error;
   if (param.numContactPairs > 0 && param.offsetCollidables == nullptr) return SCE_PFX_ERR_INVALID_VALUE;
   pfx::parallelFor(poolOf(taskManager), param.numContactPairs, kPairGrain, [&](pfx::TaskRange range) {
-    thread_local Scratch scratch;
+    Scratch& scratch = scratchOfThread();
     for (uint32_t i = range.begin; i < range.end; ++i) {
       const PfxConstraintPair& pair = param.contactPairs[i];
       const PfxUInt16 a = pfxGetRigidBodyIdA(pair), b = pfxGetRigidBodyIdB(pair);
