@@ -1,9 +1,9 @@
-#include "compat/task.h"
+#include "compat/physics_effects/task.h"
 
 #include <new>
 
-#include "compat/native.h"
-#include "compat/sort.h"
+#include "compat/physics_effects/native.h"
+#include "compat/physics_effects/sort.h"
 #include "pfx/low_level/sort/radix_sort.h"
 
 namespace sce::PhysicsEffects {

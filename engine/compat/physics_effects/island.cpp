@@ -1,8 +1,8 @@
-#include "compat/island.h"
+#include "compat/physics_effects/island.h"
 
 #include <algorithm>
 
-#include "compat/native.h"
+#include "compat/physics_effects/native.h"
 
 namespace sce::PhysicsEffects {
 

@@ -1,7 +1,7 @@
 // Sortable records of 16 and 32 bytes, and the sort.
 #pragma once
 
-#include "compat/task.h"
+#include "task.h"
 
 namespace sce {
 namespace PhysicsEffects {

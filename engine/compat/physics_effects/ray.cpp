@@ -1,9 +1,9 @@
-#include "compat/ray.h"
+#include "compat/physics_effects/ray.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "compat/native.h"
+#include "compat/physics_effects/native.h"
 #include "pfx/base_level/ray/ray.h"
 #include "pfx/base_level/shape/large_mesh.h"
 

@@ -1,8 +1,8 @@
-#include "compat/shape.h"
+#include "compat/physics_effects/shape.h"
 
 #include <algorithm>
 
-#include "compat/native.h"
+#include "compat/physics_effects/native.h"
 #include "pfx/base_level/shape/collidable.h"
 
 namespace sce::PhysicsEffects {

@@ -1,7 +1,7 @@
 // Shapes, and the collidable that gives a body its shapes. Sizes are half lengths in m; capsule and cylinder lie along X.
 #pragma once
 
-#include "compat/mesh.h"
+#include "mesh.h"
 
 namespace sce {
 namespace PhysicsEffects {

@@ -3,17 +3,26 @@
 
 #include <cstddef>
 #include <cstring>
+#include <span>
 
-#include "compat/shape.h"
-#include "compat/task.h"
+#include "compat/physics_effects/broadphase.h"
+#include "compat/physics_effects/joint.h"
+#include "compat/physics_effects/shape.h"
+#include "compat/physics_effects/task.h"
 #include "pfx/base_level/error.h"
+#include "pfx/base_level/joint/joint.h"
 #include "pfx/base_level/math/trig.h"
+#include "pfx/base_level/shape/convex_mesh.h"
+#include "pfx/base_level/shape/large_mesh.h"
 #include "pfx/base_level/rigid_body/rigid_state.h"
 #include "pfx/base_level/shape/aabb.h"
 #include "pfx/base_level/shape/shape.h"
 #include "pfx/low_level/task/task_manager.h"
 
 namespace sce::PhysicsEffects {
+
+struct PfxNativeConvexMesh : pfx::ConvexMesh {};
+struct PfxNativeLargeMesh : pfx::LargeMesh {};
 
 // A state begins as the engine's own does, so that it can be read as one.
 struct NativeLayout {
@@ -49,6 +58,19 @@ pfx::Shape native(const PfxShape& shape);
 // Whether sizes are finite and meshes are there.
 bool isValid(const PfxShape& shape);
 
+// A joint as the engine takes it; m_maxImpulse (N s) stands in max_force.
+pfx::Joint nativeJoint(const PfxJoint& joint);
+pfx::AxisConstraint nativeAxis(const PfxJointConstraint& axis);
+
+// Make the records of meshes that were built; memory comes from the utility allocator. The convex mesh keeps the vertices
+// and triangles that it was made of. SCE_PFX_ERR_OUT_OF_BUFFER: no memory; SCE_PFX_ERR_OUT_OF_RANGE_ISLANDS.
+PfxInt32 adoptConvexMesh(PfxConvexMesh& mesh, pfx::ConvexMesh&& built, std::span<const pfx::Vec3> vertices,
+                         std::span<const uint32_t> indices);
+PfxInt32 adoptLargeMesh(PfxLargeTriMesh& mesh, const pfx::LargeMesh& built);
+
+// Takes the memory that contacts with meshes need on this thread, so that detection does not.
+void reserveMeshContacts();
+
 inline pfx::Aabb bodyAabb(const PfxRigidState& s, const PfxCollidable& c) {
   return pfx::transformedAabb(poseOf(s), native(c.getCenter()), native(c.getHalf()));
 }
@@ -69,6 +91,9 @@ inline pfx::TaskManager* poolOf(const PfxTaskManager* tasks) {
 }
 
 inline bool aligned16(const void* p) { return reinterpret_cast<uintptr_t>(p) % 16 == 0; }
+
+// NULL, alignment, and whether all bodies are there (num_bodies = 0: not known).
+PfxInt32 checkPairs(const PfxConstraintPair* pairs, PfxUInt32 count, PfxUInt32 num_bodies);
 
 inline PfxInt32 errorCode(pfx::Error e) {
   switch (e) {

@@ -230,4 +230,4 @@ Quat slerp(float t, const Quat& unit_a, const Quat& unit_b);
 }  // namespace Vectormath
 }  // namespace sce
 
-#include "compat/vectormath_matrix.h"
+#include "vectormath_matrix.h"

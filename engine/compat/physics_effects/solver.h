@@ -1,8 +1,8 @@
 // Constraint solver and integration.
 #pragma once
 
-#include "compat/contact.h"
-#include "compat/joint.h"
+#include "contact.h"
+#include "joint.h"
 
 namespace sce {
 namespace PhysicsEffects {

@@ -1,7 +1,7 @@
 // State and attributes of a rigid body, motion types, inertia of simple solids.
 #pragma once
 
-#include "compat/base.h"
+#include "base.h"
 
 namespace sce {
 namespace PhysicsEffects {

@@ -1,8 +1,8 @@
 // External force, broad-phase proxies, pairs, and which pairs are new, kept and gone.
 #pragma once
 
-#include "compat/shape.h"
-#include "compat/sort.h"
+#include "shape.h"
+#include "sort.h"
 
 #define SCE_PFX_OUT_OF_WORLD_BEHAVIOR_FIX_MOTION 0x01u    // bodies outside become Fixed
 #define SCE_PFX_OUT_OF_WORLD_BEHAVIOR_REMOVE_PROXY 0x02u  // bodies outside get no proxy

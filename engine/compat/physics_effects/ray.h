@@ -1,7 +1,7 @@
 // Rays against bodies.
 #pragma once
 
-#include "compat/contact.h"
+#include "contact.h"
 
 #define SCE_PFX_RAY_FACET_MODE_FRONT_ONLY 0
 #define SCE_PFX_RAY_FACET_MODE_BACK_ONLY 1

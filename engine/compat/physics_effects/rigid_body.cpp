@@ -1,6 +1,6 @@
-#include "compat/rigid_body.h"
+#include "compat/physics_effects/rigid_body.h"
 
-#include "compat/native.h"
+#include "compat/physics_effects/native.h"
 
 namespace sce::PhysicsEffects {
 

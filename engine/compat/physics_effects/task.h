@@ -1,12 +1,18 @@
 // Task managers of the overview's API, over the engine's pool of workers.
 #pragma once
 
-#include "compat/base.h"
+#include "base.h"
 
-// Loading of console modules: nothing to do here.
-#define SCE_SYSMODULE_ULT 0x0022
-inline int sceSysmoduleLoadModule(int) { return 0; }
-inline int sceSysmoduleUnloadModule(int) { return 0; }
+// Loading of console modules: nothing to do here. Templates, so that a program may bring functions of its own.
+enum { SCE_SYSMODULE_ULT = 0x0022 };
+template <class Module>
+inline int sceSysmoduleLoadModule(Module) {
+  return 0;
+}
+template <class Module>
+inline int sceSysmoduleUnloadModule(Module) {
+  return 0;
+}
 
 namespace sce {
 namespace PhysicsEffects {

@@ -1,7 +1,7 @@
 // Islands: bodies that contacts and joints connect.
 #pragma once
 
-#include "compat/broadphase.h"
+#include "broadphase.h"
 
 namespace sce {
 namespace PhysicsEffects {

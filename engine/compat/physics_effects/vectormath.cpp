@@ -1,4 +1,4 @@
-#include "compat/vectormath.h"
+#include "compat/physics_effects/vectormath.h"
 
 #include <algorithm>
 

@@ -1,10 +1,10 @@
-#include "compat/contact.h"
+#include "compat/physics_effects/contact.h"
 
 #include <algorithm>
 #include <cfloat>
 #include <vector>
 
-#include "compat/native.h"
+#include "compat/physics_effects/native.h"
 #include "pfx/base_level/collision/mesh_contact.h"
 #include "pfx/base_level/collision/pair_table.h"
 #include "pfx/base_level/shape/collidable.h"
@@ -38,6 +38,8 @@ int pointToLeaveOut(const PfxContactPoint* const (&points)[5]) {
   return out;
 }
 
+constexpr PfxFloat kSamePoint = 0.02f;  // m, how far a point may wander from step to step
+
 // One pair of bodies while its contacts are looked for.
 struct Detection {
   const PfxRigidState &a, &b;
@@ -45,14 +47,23 @@ struct Detection {
   const PfxContactManifold old;
 };
 
+// A point takes over the impulses of the point that it continues: the one of the same features, or, as features change
+// when another face of a pair becomes the reference, the nearest one of the same shapes.
 void inherit(PfxContactPoint& point, const PfxContactManifold& old) {
+  const PfxContactPoint* from = nullptr;
+  PfxFloat nearest = kSamePoint * kSamePoint;
   for (int i = 0; i < old.getNumContacts(); ++i) {
     const PfxContactPoint& o = old.getContactPoint(i);
-    if (o.m_feature != point.m_feature || o.m_shapeIdA != point.m_shapeIdA || o.m_shapeIdB != point.m_shapeIdB) continue;
-    point.m_duration = static_cast<PfxUInt8>(SCE_PFX_MIN(o.m_duration + 1, 255));
-    for (int r = 0; r < 3; ++r) point.m_constraintRow[r] = o.m_constraintRow[r];
-    return;
+    if (o.m_shapeIdA != point.m_shapeIdA || o.m_shapeIdB != point.m_shapeIdB) continue;
+    const PfxFloat away = lengthSqr(pfxReadVector3(o.m_localPointA) - pfxReadVector3(point.m_localPointA));
+    if (o.m_feature != point.m_feature && away >= nearest) continue;
+    from = &o;
+    if (o.m_feature == point.m_feature) break;
+    nearest = away;
   }
+  if (from == nullptr) return;
+  point.m_duration = static_cast<PfxUInt8>(SCE_PFX_MIN(from->m_duration + 1, 255));
+  for (int r = 0; r < 3; ++r) point.m_constraintRow[r] = from->m_constraintRow[r];
 }
 
 PfxSubData subData(const pfx::ContactPoint& p, const PfxShape& a, const PfxShape& b) {
@@ -80,11 +91,11 @@ void addPoints(Detection& d, const ShapePair& shapes, const pfx::ContactManifold
     PfxContactPoint point;
     point.m_shapeIdA = shapes.index_a, point.m_shapeIdB = shapes.index_b;
     point.m_feature = p.feature;
+    pfxStoreVector3(compat(p.local_a), point.m_localPointA);
+    pfxStoreVector3(compat(p.local_b), point.m_localPointB);
     inherit(point, d.old);
     point.m_subData = subData(p, shapes.a, shapes.b);
     point.m_distance = p.distance;
-    pfxStoreVector3(compat(p.local_a), point.m_localPointA);
-    pfxStoreVector3(compat(p.local_b), point.m_localPointB);
     pfxStoreVector3(compat(-found.normal), point.m_constraintRow[0].m_normal);
     d.manifold.addContactPoint(point);
   }
@@ -95,6 +106,10 @@ struct Scratch {
   pfx::MeshContactScratch mesh;
   std::vector<pfx::ContactManifold> found;
 };
+Scratch& scratchOfThread() {
+  thread_local Scratch scratch;
+  return scratch;
+}
 
 void collide(Detection& d, const ShapePair& shapes, Scratch& scratch) {
   const pfx::Shape a = native(shapes.a), b = native(shapes.b);
@@ -133,20 +148,33 @@ void detectPair(Detection& d, const PfxCollidable& a, const PfxCollidable& b, Sc
 template <class Param>
 PfxInt32 check(const Param& p) {
   if (p.numContactPairs == 0) return SCE_PFX_OK;
-  if (p.contactPairs == nullptr || p.offsetContactManifolds == nullptr || p.offsetRigidStates == nullptr)
-    return SCE_PFX_ERR_INVALID_VALUE;
-  if (!aligned16(p.contactPairs)) return SCE_PFX_ERR_INVALID_ALIGN;
-  for (PfxUInt32 i = 0; i < p.numContactPairs; ++i) {
-    const PfxConstraintPair& pair = p.contactPairs[i];
-    if (pfxGetRigidBodyIdA(pair) >= p.numRigidBodies || pfxGetRigidBodyIdB(pair) >= p.numRigidBodies)
-      return SCE_PFX_ERR_OUT_OF_RANGE;
-  }
-  return SCE_PFX_OK;
+  if (p.offsetContactManifolds == nullptr || p.offsetRigidStates == nullptr) return SCE_PFX_ERR_INVALID_VALUE;
+  return checkPairs(p.contactPairs, p.numContactPairs, p.numRigidBodies);
 }
 
 constexpr uint32_t kPairGrain = 64;
 
+constexpr size_t kMeshContactRoom = 128;  // normals that a body may meet on a mesh before memory is taken in a step
+
 }  // namespace
+
+PfxInt32 checkPairs(const PfxConstraintPair* pairs, PfxUInt32 count, PfxUInt32 num_bodies) {
+  if (count == 0) return SCE_PFX_OK;
+  if (pairs == nullptr) return SCE_PFX_ERR_INVALID_VALUE;
+  if (!aligned16(pairs)) return SCE_PFX_ERR_INVALID_ALIGN;
+  for (PfxUInt32 i = 0; num_bodies > 0 && i < count; ++i)
+    if (pfxGetRigidBodyIdA(pairs[i]) >= num_bodies || pfxGetRigidBodyIdB(pairs[i]) >= num_bodies)
+      return SCE_PFX_ERR_OUT_OF_RANGE;
+  return SCE_PFX_OK;
+}
+
+void reserveMeshContacts() {
+  Scratch& scratch = scratchOfThread();
+  scratch.mesh.clusters.reserve(kMeshContactRoom);
+  scratch.mesh.vertices.reserve(kMeshContactRoom);
+  scratch.mesh.planes.reserve(kMeshContactRoom);
+  scratch.found.reserve(kMeshContactRoom);
+}
 
 void PfxContactPoint::reset() {
   m_duration = m_shapeIdA = m_shapeIdB = 0;
@@ -201,7 +229,7 @@ PfxInt32 pfxDetectCollision(PfxDetectCollisionParam& param, PfxTaskManager* task
   if (const PfxInt32 error = check(param); error != SCE_PFX_OK) return error;
   if (param.numContactPairs > 0 && param.offsetCollidables == nullptr) return SCE_PFX_ERR_INVALID_VALUE;
   pfx::parallelFor(poolOf(taskManager), param.numContactPairs, kPairGrain, [&](pfx::TaskRange range) {
-    thread_local Scratch scratch;
+    Scratch& scratch = scratchOfThread();
     for (uint32_t i = range.begin; i < range.end; ++i) {
       const PfxConstraintPair& pair = param.contactPairs[i];
       const PfxUInt16 a = pfxGetRigidBodyIdA(pair), b = pfxGetRigidBodyIdB(pair);

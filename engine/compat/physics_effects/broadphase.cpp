@@ -1,9 +1,9 @@
-#include "compat/broadphase.h"
+#include "compat/physics_effects/broadphase.h"
 
 #include <algorithm>
 #include <cmath>
 
-#include "compat/native.h"
+#include "compat/physics_effects/native.h"
 
 namespace sce::PhysicsEffects {
 namespace {

@@ -1,8 +1,8 @@
-#include "compat/joint.h"
+#include "compat/physics_effects/joint.h"
 
 #include <cfloat>
 
-#include "compat/native.h"
+#include "compat/physics_effects/native.h"
 #include "pfx/base_level/joint/joint_frame.h"
 
 namespace sce::PhysicsEffects {
@@ -44,6 +44,26 @@ void limit(PfxJointConstraint& axis, PfxFloat lower, PfxFloat upper, PfxFloat da
 }
 
 }  // namespace
+
+pfx::Joint nativeJoint(const PfxJoint& j) {
+  pfx::Joint joint;
+  joint.kind = static_cast<pfx::JointKind>(j.m_type);
+  joint.cone = j.m_type == kPfxJointSwingtwist;
+  joint.anchor_a = native(j.m_anchorA), joint.anchor_b = native(j.m_anchorB);
+  joint.frame_a = pfx::Quat(native(j.m_frameA)).normalized();
+  joint.frame_b = pfx::Quat(native(j.m_frameB)).normalized();
+  for (int i = 0; i < 6; ++i) joint.axis[i] = nativeAxis(j.m_constraints[i]);
+  return joint;
+}
+
+pfx::AxisConstraint nativeAxis(const PfxJointConstraint& c) {
+  pfx::AxisConstraint axis;
+  axis.lock = static_cast<pfx::JointLock>(SCE_PFX_MIN(c.m_lock, SCE_PFX_JOINT_LOCK_FIX));
+  axis.lower = c.m_movableLowerLimit, axis.upper = c.m_movableUpperLimit;
+  axis.bias = c.m_bias, axis.weight = c.m_weight, axis.damping = c.m_damping;
+  axis.max_force = c.m_maxImpulse;
+  return axis;
+}
 
 void PfxJointConstraint::reset() {
   m_lock = SCE_PFX_JOINT_LOCK_FREE;

@@ -1,7 +1,7 @@
 // Joints: six axis constraints between two bodies, and the kinds that are made of them.
 #pragma once
 
-#include "compat/broadphase.h"
+#include "broadphase.h"
 
 #define SCE_PFX_JOINT_LOCK_FREE 0   // free in the whole
 #define SCE_PFX_JOINT_LOCK_LIMIT 1  // free within the movable range

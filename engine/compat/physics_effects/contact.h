@@ -1,7 +1,7 @@
 // Contact manifolds, and the stage that fills them.
 #pragma once
 
-#include "compat/broadphase.h"
+#include "broadphase.h"
 
 #define SCE_PFX_CONTACT_MARGIN_ 0.01f  // m, contacts are kept up to this gap
 

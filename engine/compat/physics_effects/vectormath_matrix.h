@@ -1,7 +1,7 @@
 // Matrix types of the overview's API, by columns. Included by vectormath.h.
 #pragma once
 
-#include "compat/vectormath.h"
+#include "vectormath.h"
 
 namespace sce {
 namespace Vectormath {
