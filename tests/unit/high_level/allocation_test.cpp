@@ -1,36 +1,8 @@
 // The step of a warm world must not touch the heap. Counts every operator new of the process.
 #include <gtest/gtest.h>
 
-#include <atomic>
-#include <cstdlib>
-#include <new>
-
 #include "pfx/high_level/world/world.h"
-
-namespace {
-
-std::atomic<long> g_allocations{0};
-
-}  // namespace
-
-// The compiler cannot see that both sides are replaced together.
-#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
-
-void* operator new(std::size_t size) {
-  ++g_allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++g_allocations;
-  const auto a = static_cast<std::size_t>(alignment);
-  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+#include "tests/support/counted_allocations.h"
 
 namespace {
 
@@ -65,9 +37,9 @@ TEST_P(Allocation, AWarmStepDoesNotAllocate) {
   build(world);
   for (int i = 0; i < 120; ++i) world.step(1.0f / 60.0f);
   ASSERT_GT(world.counts().contact_points, 200u) << "the wall must touch, or the test proves nothing";
-  const long before = g_allocations.load();
+  const long before = support::g_allocations.load();
   for (int i = 0; i < 600; ++i) world.step(1.0f / 60.0f);
-  EXPECT_EQ(g_allocations.load() - before, 0);
+  EXPECT_EQ(support::g_allocations.load() - before, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Pipelines, Allocation, testing::Values(Pipeline::Simple, Pipeline::Stable));
