@@ -5,8 +5,8 @@
 namespace samples {
 namespace {
 
-constexpr std::array kSamples = {simpleScenes, stableScenes,    sleepScenes,    motionTypeScenes,
-                                 jointScenes,  serializeScenes, xmlImportScenes};
+constexpr std::array kSamples = {simpleScenes,  stableScenes, sleepScenes,     motionTypeScenes,
+                                 raycastScenes, jointScenes,  serializeScenes, xmlImportScenes};
 
 std::vector<SceneEntry> allScenes() {
   std::vector<SceneEntry> all;

@@ -1,9 +1,7 @@
-// Why an island is awake, in words and numbers: for the inspector panel and for vitrine inspect.
+// What is known of an island: its members, what links them, and why it is awake.
 #pragma once
 
-#include <string>
-
-#include "pfx/high_level/world/world.h"
+#include "viewer/inspect/body_facts.h"
 
 namespace viewer {
 
@@ -18,5 +16,11 @@ struct SleepFacts {
 
 // Of an island of the world (index < world.numIslands()).
 SleepFacts explainSleep(const pfx::World& world, uint32_t island);
+
+// Joints that link a body of the island, ascending.
+std::vector<uint32_t> jointsOf(const pfx::World& world, const pfx::IslandView& island);
+
+// {"id", "bodies", "contacts", "joints", "asleep", "sleep_timer", "why", ...}
+Json islandJson(const pfx::World& world, uint32_t island);
 
 }  // namespace viewer

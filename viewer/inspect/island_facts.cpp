@@ -1,5 +1,4 @@
-// Why an island is awake.
-#include "viewer/run/sleep_facts.h"
+#include "viewer/inspect/island_facts.h"
 
 #include <algorithm>
 #include <cstdio>
@@ -48,6 +47,41 @@ SleepFacts explainSleep(const pfx::World& world, uint32_t island) {
   }
   f.why = explain(world, view, f);
   return f;
+}
+
+std::vector<uint32_t> jointsOf(const pfx::World& world, const pfx::IslandView& island) {
+  std::vector<uint32_t> joints;
+  const auto links = world.jointLinks();
+  for (uint32_t i = 0; i < links.size(); ++i)
+    if (links[i].exists && (std::ranges::binary_search(island.bodies, links[i].body_a) ||
+                            std::ranges::binary_search(island.bodies, links[i].body_b)))
+      joints.push_back(i);
+  return joints;
+}
+
+Json islandJson(const pfx::World& world, uint32_t island) {
+  const pfx::IslandView view = world.island(island);
+  const SleepFacts sleep = explainSleep(world, island);
+  Json bodies = Json::array(), pairs = Json::array(), joints = Json::array();
+  for (uint32_t body : view.bodies) bodies.push_back(bodyRef(world, body));
+  for (uint32_t i : view.contacts) {
+    const pfx::Pair& pair = world.contactPairs()[i];
+    pairs.push_back({bodyRef(world, pair.body_a), bodyRef(world, pair.body_b)});
+  }
+  for (uint32_t joint : jointsOf(world, view)) joints.push_back(jointRef(world, joint));
+  Json fastest = bodyRef(world, sleep.fastest);
+  fastest["linear_speed"] = sleep.linear_speed;
+  fastest["angular_speed"] = sleep.angular_speed;
+  return {{"id", island},
+          {"bodies", std::move(bodies)},
+          {"contacts", view.contacts.size()},
+          {"joints", view.joints},
+          {"asleep", view.asleep},
+          {"sleep_timer", view.sleep_timer},
+          {"why", sleep.why},
+          {"fastest", std::move(fastest)},
+          {"contact_pairs", std::move(pairs)},
+          {"joint_list", std::move(joints)}};
 }
 
 }  // namespace viewer
