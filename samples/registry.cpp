@@ -6,7 +6,7 @@ namespace samples {
 namespace {
 
 constexpr std::array kSamples = {simpleScenes, stableScenes,    sleepScenes,    motionTypeScenes,
-                                 jointScenes,  serializeScenes, xmlImportScenes};
+                                 jointScenes,  serializeScenes, xmlImportScenes, accuracyScenes, benchmarkScenes};
 
 std::vector<SceneEntry> allScenes() {
   std::vector<SceneEntry> all;

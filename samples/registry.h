@@ -14,5 +14,8 @@ std::vector<SceneEntry> motionTypeScenes();  // 4_motion_type
 std::vector<SceneEntry> jointScenes();       // 6_joint
 std::vector<SceneEntry> serializeScenes();   // 7_serialize
 std::vector<SceneEntry> xmlImportScenes();   // 11_xml_import
+std::vector<SceneEntry> accuracyScenes();    // accuracy
+std::vector<SceneEntry> hardCaseScenes();    // hard_cases
+std::vector<SceneEntry> benchmarkScenes();   // benchmarks
 
 }  // namespace samples
