@@ -1,5 +1,5 @@
-// ODE with its iterative solver and default settings (20 iterations, ERP 0.2), sweep and prune, disabling
-// off.
+// ODE with default settings (20 iterations, ERP 0.2), sweep and prune, disabling off: with its iterative solver, and
+// with its direct one.
 #include <ode/ode.h>
 
 #include <array>
@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "pfx/base_level/shape/large_mesh.h"
-#include "samples/benchmarks/engine.h"
+#include "samples/benchmarks/engines/engine.h"
 
 namespace samples::benchmarks {
 namespace {
@@ -79,11 +79,13 @@ struct MakeGeom {
 
 class OdeEngine final : public Engine {
  public:
-  explicit OdeEngine(const pfx::World& source)
-      : world_(dWorldCreate()),
+  OdeEngine(const pfx::World& source, bool direct)
+      : direct_(direct),
+        world_(dWorldCreate()),
         space_(dSweepAndPruneSpaceCreate(nullptr, dSAP_AXES_XZY)),
         contacts_(dJointGroupCreate(0)),
-        surfaces_(source.bodies().begin(), source.bodies().end()) {
+        surfaces_(source.bodies().begin(), source.bodies().end()),
+        states_(source.states().begin(), source.states().end()) {
     const pfx::Vec3& g = source.def().gravity;
     dWorldSetGravity(world_, g.x(), g.y(), g.z());
     dWorldSetAutoDisableFlag(world_, 0);
@@ -129,21 +131,45 @@ class OdeEngine final : public Engine {
     return true;
   }
 
+  bool add(const pfx::Joint& joint, const pfx::JointLink& link) {
+    const dBodyID a = bodies_[link.body_a], b = bodies_[link.body_b];
+    const pfx::RigidState& state = states_[link.body_a];
+    const pfx::Vec3 anchor = state.pose().apply(joint.anchor_a);
+    const pfx::Vec3 axis = state.orientation * (joint.frame_a * pfx::Vec3::UnitX());
+    if (joint.kind == pfx::JointKind::Ball) {
+      const dJointID id = dJointCreateBall(world_, nullptr);
+      dJointAttach(id, a, b);
+      dJointSetBallAnchor(id, anchor.x(), anchor.y(), anchor.z());
+    } else if (joint.kind == pfx::JointKind::Fixed) {
+      const dJointID id = dJointCreateFixed(world_, nullptr);
+      dJointAttach(id, a, b);
+      dJointSetFixed(id);
+    } else if (joint.kind == pfx::JointKind::Hinge && joint.axis[3].lock == pfx::JointLock::Free) {
+      const dJointID id = dJointCreateHinge(world_, nullptr);
+      dJointAttach(id, a, b);
+      dJointSetHingeAnchor(id, anchor.x(), anchor.y(), anchor.z());
+      dJointSetHingeAxis(id, axis.x(), axis.y(), axis.z());
+    } else {
+      return false;
+    }
+    return true;
+  }
+
   void step(float dt) override {
     dSpaceCollide(space_, this,
                   [](void* self, dGeomID a, dGeomID b) { static_cast<OdeEngine*>(self)->collide(a, b); });
-    dWorldQuickStep(world_, dt);
+    if (direct_)
+      dWorldStep(world_, dt);
+    else
+      dWorldQuickStep(world_, dt);
     dJointGroupEmpty(contacts_);
   }
 
   BodyMotion motion(uint32_t index) const override {
     const dReal *p = dBodyGetPosition(bodies_[index]), *q = dBodyGetQuaternion(bodies_[index]);
-    const auto vec = [](const dReal* v) {
-      return pfx::Vec3(static_cast<float>(v[0]), static_cast<float>(v[1]), static_cast<float>(v[2]));
-    };
+    const auto vec = [](const dReal* v) { return pfx::Vec3d(double(v[0]), double(v[1]), double(v[2])); };
     return {.pose = {.position = vec(p),
-                     .orientation = pfx::Quat(static_cast<float>(q[0]), static_cast<float>(q[1]),
-                                              static_cast<float>(q[2]), static_cast<float>(q[3]))},
+                     .orientation = pfx::Quatd(double(q[0]), double(q[1]), double(q[2]), double(q[3]))},
             .linear_velocity = vec(dBodyGetLinearVel(bodies_[index])),
             .angular_velocity = vec(dBodyGetAngularVel(bodies_[index]))};
   }
@@ -151,7 +177,11 @@ class OdeEngine final : public Engine {
  private:
   void collide(dGeomID geom_a, dGeomID geom_b) {
     const dBodyID a = dGeomGetBody(geom_a), b = dGeomGetBody(geom_b);
-    if (a == b || (dBodyIsKinematic(a) && dBodyIsKinematic(b))) return;
+    if (a == b || (dBodyIsKinematic(a) && dBodyIsKinematic(b)) || dAreConnectedExcluding(a, b, dJointTypeContact))
+      return;
+    const pfx::RigidState &state_a = stateOf(a), &state_b = stateOf(b);
+    if (!pfx::filtersMatch(state_a.filter_self, state_a.filter_target, state_b.filter_self, state_b.filter_target))
+      return;
     std::array<dContact, kMaxContacts> found;
     const int count = dCollide(geom_a, geom_b, kMaxContacts, &found[0].geom, sizeof(dContact));
     const auto& surface_a = *static_cast<const pfx::RigidBody*>(dBodyGetData(a));
@@ -166,24 +196,39 @@ class OdeEngine final : public Engine {
     }
   }
 
+  const pfx::RigidState& stateOf(dBodyID body) const {
+    return states_[static_cast<size_t>(static_cast<const pfx::RigidBody*>(dBodyGetData(body)) - surfaces_.data())];
+  }
+
   OdeLibrary library_;
+  bool direct_;
   dWorldID world_;
   dSpaceID space_;
   dJointGroupID contacts_;
   std::vector<std::unique_ptr<OdeMesh>> meshes_;
   std::vector<pfx::RigidBody> surfaces_;
+  std::vector<pfx::RigidState> states_;  // at the start
   std::vector<dBodyID> bodies_;
 };
 
-std::unique_ptr<Engine> make(const pfx::World& world) {
-  auto engine = std::make_unique<OdeEngine>(world);
+std::unique_ptr<Engine> make(const pfx::World& world, bool direct) {
+  auto engine = std::make_unique<OdeEngine>(world, direct);
   for (uint32_t i = 0; i < world.states().size(); ++i)
     if (!engine->add(world.states()[i], world.bodies()[i], world.collidables()[i].shapes())) return nullptr;
+  for (uint32_t i = 0; i < world.joints().size(); ++i)
+    if (world.jointLinks()[i].exists && !engine->add(world.joints()[i], world.jointLinks()[i])) return nullptr;
   return engine;
 }
 
 }  // namespace
 
-EngineKind odeEngine() { return {sizeof(dReal) == 4 ? "ODE, float" : "ODE, double", make}; }
+EngineKind odeEngine() {
+  return {sizeof(dReal) == 4 ? "ODE, float" : "ODE, double", [](const pfx::World& w) { return make(w, false); }};
+}
+
+EngineKind odeDirectEngine() {
+  return {sizeof(dReal) == 4 ? "ODE direct, float" : "ODE direct, double",
+          [](const pfx::World& w) { return make(w, true); }};
+}
 
 }  // namespace samples::benchmarks

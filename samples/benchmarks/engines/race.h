@@ -1,6 +1,7 @@
 // Runs one benchmark scene in several engines at once and compares time and error.
 //
-// The engines take turns in blocks of a few steps, in alternating order, so that a slow phase of the machine
+// Wall time and the processor time of the calling thread are both taken: the latter is what a loaded machine leaves
+// comparable. The engines take turns in blocks of a few steps, in alternating order, so that a slow phase of the machine
 // hits all of them; times are compared block by block and the median of those ratios is the figure to trust.
 #pragma once
 
@@ -8,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "samples/benchmarks/engine.h"
+#include "samples/benchmarks/engines/engine.h"
 #include "samples/benchmarks/scenes.h"
 
 namespace samples::benchmarks {
@@ -23,7 +24,9 @@ struct Result {
   std::string engine;
   bool supported = true;        // false: the engine cannot run the scene, and nothing below holds
   Spread ms_per_step;           // wall time
-  Spread ratio;                 // of the time to that of the first contestant; above 1 is slower
+  Spread cpu_ms;                // processor time of the calling thread, a step
+  Spread ratio;                 // of the processor time to that of the first contestant, or of the wall
+                                // time where one of both has several threads; above 1 is slower
   double worst_ms = 0.0;        // slowest step
   double kinetic_energy = 0.0;  // J, at the end
   double largest_drift = 0.0;   // m, farthest that any body ended from where it began

@@ -7,7 +7,7 @@
 
 #include "pfx/base_level/shape/convex_mesh.h"
 #include "pfx/base_level/shape/large_mesh.h"
-#include "samples/benchmarks/engine.h"
+#include "samples/benchmarks/engines/engine.h"
 
 namespace samples::benchmarks {
 namespace {
@@ -17,8 +17,13 @@ btTransform toBullet(const pfx::Transform& t) {
   const pfx::Quat& q = t.orientation;
   return btTransform(btQuaternion(q.x(), q.y(), q.z(), q.w()), toBullet(t.position));
 }
-pfx::Vec3 fromBullet(const btVector3& v) {
-  return {static_cast<float>(v.x()), static_cast<float>(v.y()), static_cast<float>(v.z())};
+pfx::Vec3d fromBullet(const btVector3& v) { return {double(v.x()), double(v.y()), double(v.z())}; }
+
+// The frame of a joint in one of its bodies, with another axis order: Bullet's hinge turns about its z, ours about x.
+btTransform jointFrame(const pfx::Vec3& anchor, const pfx::Quat& frame, bool x_to_z) {
+  const float half = std::sqrt(0.5f);
+  const pfx::Quat turn = x_to_z ? pfx::Quat(half, 0.0f, half, 0.0f) : pfx::Quat(1.0f, 0.0f, 0.0f, 0.0f);
+  return toBullet(pfx::Transform{anchor, frame * turn});
 }
 
 // Bullet's counterpart of a geometry. Triangle meshes are kept in `meshes`, since Bullet's shape only refers
@@ -56,6 +61,7 @@ class BulletEngine final : public Engine {
   explicit BulletEngine(const pfx::Vec3& gravity) { world_.setGravity(toBullet(gravity)); }
 
   ~BulletEngine() override {
+    for (const auto& joint : joints_) world_.removeConstraint(joint.get());
     for (const auto& body : bodies_) world_.removeRigidBody(body.get());
   }
 
@@ -78,7 +84,25 @@ class BulletEngine final : public Engine {
     added.setLinearVelocity(toBullet(state.linear_velocity));
     added.setAngularVelocity(toBullet(state.angular_velocity));
     added.setActivationState(DISABLE_DEACTIVATION);
-    world_.addRigidBody(&added);
+    world_.addRigidBody(&added, static_cast<int>(state.filter_self), static_cast<int>(state.filter_target));
+    return true;
+  }
+
+  bool add(const pfx::Joint& joint, const pfx::JointLink& link) {
+    btRigidBody &a = *bodies_[link.body_a], &b = *bodies_[link.body_b];
+    const auto frame_a = [&](bool z) { return jointFrame(joint.anchor_a, joint.frame_a, z); };
+    const auto frame_b = [&](bool z) { return jointFrame(joint.anchor_b, joint.frame_b, z); };
+    if (joint.kind == pfx::JointKind::Ball) {
+      joints_.push_back(std::make_unique<btPoint2PointConstraint>(a, b, toBullet(joint.anchor_a),
+                                                                  toBullet(joint.anchor_b)));
+    } else if (joint.kind == pfx::JointKind::Fixed) {
+      joints_.push_back(std::make_unique<btFixedConstraint>(a, b, frame_a(false), frame_b(false)));
+    } else if (joint.kind == pfx::JointKind::Hinge && joint.axis[3].lock == pfx::JointLock::Free) {
+      joints_.push_back(std::make_unique<btHingeConstraint>(a, b, frame_a(true), frame_b(true)));
+    } else {
+      return false;
+    }
+    world_.addConstraint(joints_.back().get(), !link.bodies_collide);
     return true;
   }
 
@@ -88,8 +112,7 @@ class BulletEngine final : public Engine {
     const btRigidBody& body = *bodies_[index];
     const btQuaternion q = body.getWorldTransform().getRotation();
     return {.pose = {.position = fromBullet(body.getWorldTransform().getOrigin()),
-                     .orientation = pfx::Quat(static_cast<float>(q.w()), static_cast<float>(q.x()),
-                                              static_cast<float>(q.y()), static_cast<float>(q.z()))},
+                     .orientation = pfx::Quatd(double(q.w()), double(q.x()), double(q.y()), double(q.z()))},
             .linear_velocity = fromBullet(body.getLinearVelocity()),
             .angular_velocity = fromBullet(body.getAngularVelocity())};
   }
@@ -121,12 +144,15 @@ class BulletEngine final : public Engine {
   std::vector<std::unique_ptr<btTriangleMesh>> meshes_;
   std::vector<std::unique_ptr<btCollisionShape>> shapes_;
   std::vector<std::unique_ptr<btRigidBody>> bodies_;
+  std::vector<std::unique_ptr<btTypedConstraint>> joints_;
 };
 
 std::unique_ptr<Engine> make(const pfx::World& world) {
   auto engine = std::make_unique<BulletEngine>(world.def().gravity);
   for (uint32_t i = 0; i < world.states().size(); ++i)
     if (!engine->add(world.states()[i], world.bodies()[i], world.collidables()[i].shapes())) return nullptr;
+  for (uint32_t i = 0; i < world.joints().size(); ++i)
+    if (world.jointLinks()[i].exists && !engine->add(world.joints()[i], world.jointLinks()[i])) return nullptr;
   return engine;
 }
 

@@ -1,5 +1,5 @@
 // Which of the other engines were found when the program was built.
-#include "samples/benchmarks/engine.h"
+#include "samples/benchmarks/engines/engine.h"
 
 namespace samples::benchmarks {
 
@@ -8,6 +8,7 @@ EngineKind bulletEngine();
 #endif
 #ifdef VITRINE_HAS_ODE
 EngineKind odeEngine();
+EngineKind odeDirectEngine();
 #endif
 
 std::vector<EngineKind> peers() {
@@ -17,6 +18,14 @@ std::vector<EngineKind> peers() {
 #endif
 #ifdef VITRINE_HAS_ODE
   found.push_back(odeEngine());
+#endif
+  return found;
+}
+
+std::vector<EngineKind> peersWithAllSolvers() {
+  std::vector<EngineKind> found = peers();
+#ifdef VITRINE_HAS_ODE
+  found.push_back(odeDirectEngine());
 #endif
   return found;
 }
