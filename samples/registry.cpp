@@ -5,8 +5,9 @@
 namespace samples {
 namespace {
 
-constexpr std::array kSamples = {simpleScenes, stableScenes,    sleepScenes,    motionTypeScenes,
-                                 jointScenes,  serializeScenes, xmlImportScenes, accuracyScenes, benchmarkScenes};
+constexpr std::array kSamples = {simpleScenes,    stableScenes,   sleepScenes,    motionTypeScenes,
+                                 raycastScenes,   jointScenes,    serializeScenes, xmlImportScenes,
+                                 accuracyScenes,  hardCaseScenes, benchmarkScenes};
 
 std::vector<SceneEntry> allScenes() {
   std::vector<SceneEntry> all;

@@ -11,6 +11,7 @@ std::vector<SceneEntry> simpleScenes();  // 1_simple
 std::vector<SceneEntry> stableScenes();  // 2_stable
 std::vector<SceneEntry> sleepScenes();       // 3_sleep
 std::vector<SceneEntry> motionTypeScenes();  // 4_motion_type
+std::vector<SceneEntry> raycastScenes();     // 5_raycast
 std::vector<SceneEntry> jointScenes();       // 6_joint
 std::vector<SceneEntry> serializeScenes();   // 7_serialize
 std::vector<SceneEntry> xmlImportScenes();   // 11_xml_import

@@ -97,6 +97,10 @@ class World {
   BodyId addBody(const BodyDef& def);
   void removeBody(BodyId id);
   bool isValid(BodyId id) const;
+
+  // Gives a body other shapes (at least one), relative to the same centre of mass; mass and inertia stay. Wakes its
+  // island, and its contacts are found anew. Throws std::invalid_argument for a shape that addBody() would refuse.
+  void setShapes(BodyId id, std::span<const Shape> shapes);
   BodyId bodyId(uint32_t index) const;
 
   // Advances by dt seconds (>= 0). Throws std::invalid_argument when dt is negative or not finite.

@@ -109,6 +109,7 @@ struct World::Impl {
   QueryScene queryScene();             // for queries about the bodies as they are now
   void needSolverBody(uint32_t body);  // the solver will work on it
   void listIslandPairs();
+  void forgetPairs(uint32_t body);     // with their contacts; those that last are found anew
   void wake(uint32_t body);            // and its whole island
   void wakeNeighbours(uint32_t body);  // everything that it touches
   void revivePairs();
