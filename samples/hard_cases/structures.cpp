@@ -3,6 +3,7 @@
 
 #include "pfx/base_level/math/trig.h"
 #include "pfx/base_level/shape/convex_hull.h"
+#include "samples/hard_cases/card_house.h"
 #include "samples/hard_cases/witness.h"
 #include "samples/shared/builders.h"
 
@@ -55,56 +56,15 @@ struct BlockTower final : WitnessedScene {
   }
 };
 
-// Five storeys of cards of 40 x 20 cm and 2 mm, leaning by 25 degrees: 30 lean, 10 lie. Friction of tan(25 deg) / 2 =
+// Five storeys of cards, leaning by 25 degrees: 30 lean, 10 lie. Friction of tan(25 deg) / 2 =
 // 0.233 is what it takes: with 0.6 the house stands, with 0.2 it must fall.
 struct CardHouses final : WitnessedScene {
-  static constexpr int kStoreys = 5;
-  static constexpr float kHalf = 0.2f, kThin = 0.001f, kDeep = 0.1f;  // m, half extents of a card
   uint32_t tops[2] = {};
 
   void fill(World& world) override {
     addFloor(world, 0.6f);
-    tops[0] = addHouse(world, -1.3f, 0.6f);
-    tops[1] = addHouse(world, 1.3f, 0.2f);
-  }
-
-  static uint32_t addCard(World& world, const Vec3& at, float angle, float friction) {
-    return world
-        .addBody({.name = "card",
-                  .pose = {at, rotation(Vec3::UnitZ(), angle)},
-                  .shapes = {shape(Box{Vec3(kThin, kHalf, kDeep)})},
-                  .mass = 0.1f,
-                  .restitution = 0.0f,
-                  .friction = friction})
-        .index;
-  }
-
-  static uint32_t addHouse(World& world, float x, float friction) {
-    const float lean = 25.0f * kPi / 180.0f, s = pfx::sin(lean), c = pfx::cos(lean);
-    const float pitch = 2.0f * kHalf + 0.002f, rise = 2.0f * (kHalf * c + kThin * s);
-    // The floor is shared, so the slippery house stands on a slab of its own friction.
-    world.addBody({.name = "slab",
-                   .pose = {.position = Vec3(x, 0.01f, 0)},
-                   .motion_type = MotionType::Fixed,
-                   .shapes = {shape(Box{Vec3(1.2f, 0.01f, 0.2f)})},
-                   .restitution = 0.0f,
-                   .friction = friction});
-    float base = 0.02f;
-    uint32_t top = 0;
-    for (int tents = kStoreys; tents > 0; --tents) {
-      for (int i = 0; i < tents; ++i) {
-        const float middle = x + pitch * (static_cast<float>(i) - 0.5f * static_cast<float>(tents - 1));
-        const Vec3 offset(kHalf * s + kThin * c, base + kHalf * c + kThin * s, 0);
-        addCard(world, {middle - offset.x(), offset.y(), 0}, -lean, friction);
-        top = addCard(world, {middle + offset.x(), offset.y(), 0}, lean, friction);
-      }
-      for (int i = 0; i + 1 < tents; ++i)
-        addCard(world,
-                {x + pitch * (static_cast<float>(i) - 0.5f * static_cast<float>(tents - 2)), base + rise + kThin, 0},
-                0.5f * kPi, friction);
-      base += rise + 2.0f * kThin;
-    }
-    return top;
+    tops[0] = addCardHouse(world, {.x = -1.3f, .friction = 0.6f});
+    tops[1] = addCardHouse(world, {.x = 1.3f, .friction = 0.2f});
   }
 
   std::vector<Reading> readings(const World& world) const override {
@@ -165,6 +125,46 @@ std::unique_ptr<Scene> make() {
 }
 
 }  // namespace
+
+uint32_t addCardHouse(World& world, const CardHouse& house) {
+  constexpr int kStoreys = 5;
+  constexpr float kHalf = 0.2f, kDeep = 0.1f;  // m, half extents of a card
+  const float x = house.x, thin = house.half_thickness;
+  const float lean = 25.0f * kPi / 180.0f, s = pfx::sin(lean), c = pfx::cos(lean);
+  const float pitch = 2.0f * kHalf + 0.002f, rise = 2.0f * (kHalf * c + thin * s);
+  const auto addCard = [&](const Vec3& at, float angle) {
+    const BodyId card = world.addBody({.name = "card",
+                                       .pose = {at, rotation(Vec3::UnitZ(), angle)},
+                                       .shapes = {shape(Box{Vec3(thin, kHalf, kDeep)})},
+                                       .mass = 50.0f * thin,
+                                       .restitution = 0.0f,
+                                       .friction = house.friction,
+                                       .rolling_resistance = house.rolling_resistance});
+    return card.index;
+  };
+  // A slab of its own friction, so that houses of different friction may share a floor.
+  world.addBody({.name = "slab",
+                 .pose = {.position = Vec3(x, 0.01f, 0)},
+                 .motion_type = MotionType::Fixed,
+                 .shapes = {shape(Box{Vec3(1.2f, 0.01f, 0.2f)})},
+                 .restitution = 0.0f,
+                 .friction = house.friction});
+  float base = 0.02f;
+  uint32_t top = 0;
+  for (int tents = kStoreys; tents > 0; --tents) {
+    const auto middle = [&](int i, int count) {
+      return x + pitch * (static_cast<float>(i) - 0.5f * static_cast<float>(count - 1));
+    };
+    for (int i = 0; i < tents; ++i) {
+      const float out = kHalf * s + thin * c, y = base + kHalf * c + thin * s;
+      addCard({middle(i, tents) - out, y, 0}, -lean);
+      top = addCard({middle(i, tents) + out, y, 0}, lean);
+    }
+    for (int i = 0; i + 1 < tents; ++i) addCard({middle(i, tents - 1), base + rise + thin, 0}, 0.5f * kPi);
+    base += rise + 2.0f * thin;
+  }
+  return top;
+}
 
 std::vector<SceneEntry> structureScenes() {
   const std::string_view sample = "hard_cases";
