@@ -5,9 +5,20 @@
 namespace samples {
 namespace {
 
-constexpr std::array kSamples = {simpleScenes,    stableScenes,   sleepScenes,    motionTypeScenes,
-                                 raycastScenes,   jointScenes,    serializeScenes, xmlImportScenes,
-                                 accuracyScenes,  hardCaseScenes, benchmarkScenes};
+// In the order of the browser.
+constexpr std::array kSamples = {
+    simpleScenes,
+    stableScenes,
+    sleepScenes,
+    motionTypeScenes,
+    raycastScenes,
+    jointScenes,
+    serializeScenes,
+    xmlImportScenes,
+    accuracyScenes,
+    hardCaseScenes,
+    benchmarkScenes,
+};
 
 std::vector<SceneEntry> allScenes() {
   std::vector<SceneEntry> all;

@@ -1,12 +1,15 @@
 #include "compat/physics_effects/broadphase.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cmath>
 
 #include "compat/physics_effects/native.h"
 
 namespace sce::PhysicsEffects {
 namespace {
+
+constexpr uint32_t kGrain = 64;  // bodies that one task takes
 
 bool finite(const PfxVector3& v) { return native(v).allFinite(); }
 
@@ -52,6 +55,13 @@ Bounds boundsIn(const PfxRigidState& state, const PfxCollidable& collidable, con
   const pfx::Vec3 lower = native(center - extent), upper = native(center + extent);
   if (!box.min.allFinite() || !box.max.allFinite()) return {{lower, lower}, true};
   return {box, !box.overlaps({lower, upper})};
+}
+
+void leaveWorld(PfxRigidState& state, PfxUInt32 behavior) {
+  if (!(behavior & SCE_PFX_OUT_OF_WORLD_BEHAVIOR_FIX_MOTION)) return;
+  state.setMotionType(kPfxMotionTypeFixed);
+  state.setLinearVelocity(PfxVector3(0.0f));
+  state.setAngularVelocity(PfxVector3(0.0f));
 }
 
 bool overlap(const PfxBroadphaseProxy& a, const PfxBroadphaseProxy& b) {
@@ -113,6 +123,25 @@ PfxInt32 pfxUpdateBroadphaseProxy(PfxBroadphaseProxy& proxy, const PfxRigidState
   return bounds.outside ? SCE_PFX_ERR_OUT_OF_WORLD : SCE_PFX_OK;
 }
 
+PfxInt32 pfxUpdateBroadphaseProxy(PfxBroadphaseProxy& x, PfxBroadphaseProxy& y, PfxBroadphaseProxy& z, const PfxRigidState& state,
+                                  const PfxCollidable& collidable, const PfxVector3& center, const PfxVector3& extent) {
+  const PfxInt32 code = pfxUpdateBroadphaseProxy(x, state, collidable, center, extent, 0);
+  if (code == SCE_PFX_ERR_INVALID_VALUE) return code;
+  y = z = x;
+  writeKey(y, 1), writeKey(z, 2);
+  return code;
+}
+
+PfxInt32 pfxUpdateBroadphaseProxy(PfxBroadphaseProxy& x, PfxBroadphaseProxy& y, PfxBroadphaseProxy& z, PfxBroadphaseProxy& xb,
+                                  PfxBroadphaseProxy& yb, PfxBroadphaseProxy& zb, const PfxRigidState& state,
+                                  const PfxCollidable& collidable, const PfxVector3& center, const PfxVector3& extent) {
+  const PfxInt32 code = pfxUpdateBroadphaseProxy(x, y, z, state, collidable, center, extent);
+  if (code == SCE_PFX_ERR_INVALID_VALUE) return code;
+  xb = yb = zb = x;
+  writeKey(xb, 3), writeKey(yb, 4), writeKey(zb, 5);
+  return code;
+}
+
 PfxUInt32 pfxGetWorkBytesOfUpdateBroadphaseProxies(PfxUInt32 numRigidBodies, PfxUInt32) {
   return sizeof(PfxBroadphaseProxy) * std::max(numRigidBodies, 1u);
 }
@@ -130,30 +159,34 @@ PfxInt32 pfxUpdateBroadphaseProxies(PfxUpdateBroadphaseProxiesParam& param, PfxU
     if (!aligned16(a)) return SCE_PFX_ERR_INVALID_ALIGN;
   if (param.workBytes < pfxGetWorkBytesOfUpdateBroadphaseProxies(n)) return SCE_PFX_ERR_OUT_OF_BUFFER;
 
-  PfxUInt32 count = 0;
-  for (PfxUInt32 i = 0; i < n; ++i) {
-    PfxRigidState& state = param.offsetRigidStates[i];
-    const Bounds bounds = boundsIn(state, param.offsetCollidables[i], param.worldCenter, param.worldExtent);
-    if (bounds.outside) {
-      ++result.numOutOfWorldProxies;
-      if (param.outOfWorldBehavior & SCE_PFX_OUT_OF_WORLD_BEHAVIOR_FIX_MOTION) {
-        state.setMotionType(kPfxMotionTypeFixed);
-        state.setLinearVelocity(PfxVector3(0.0f));
-        state.setAngularVelocity(PfxVector3(0.0f));
+  // When bodies outside are left out, the place of a proxy depends on those before it.
+  const bool remove = param.outOfWorldBehavior & SCE_PFX_OUT_OF_WORLD_BEHAVIOR_REMOVE_PROXY;
+  PfxUInt32 removed = 0;
+  std::atomic<PfxInt32> outside = 0;
+  pfx::parallelFor(remove ? nullptr : poolOf(taskManager), n, kGrain, [&](pfx::TaskRange range) {
+    for (PfxUInt32 i = range.begin; i < range.end; ++i) {
+      const Bounds bounds = boundsIn(param.offsetRigidStates[i], param.offsetCollidables[i], param.worldCenter, param.worldExtent);
+      if (bounds.outside) {
+        outside.fetch_add(1, std::memory_order_relaxed);
+        leaveWorld(param.offsetRigidStates[i], param.outOfWorldBehavior);
+        if (remove) {
+          ++removed;
+          continue;
+        }
       }
-      if (param.outOfWorldBehavior & SCE_PFX_OUT_OF_WORLD_BEHAVIOR_REMOVE_PROXY) continue;
+      PfxBroadphaseProxy proxy;
+      writeProxy(proxy, param.offsetRigidStates[i], bounds.box, param.worldCenter, param.worldExtent);
+      for (PfxUInt32 axis = 0; axis < 6; ++axis) {
+        if (arrays[axis] == nullptr) continue;
+        writeKey(proxy, axis);
+        arrays[axis][i - removed] = proxy;
+      }
     }
-    PfxBroadphaseProxy proxy;
-    writeProxy(proxy, state, bounds.box, param.worldCenter, param.worldExtent);
-    for (PfxUInt32 axis = 0; axis < 6; ++axis) {
-      if (arrays[axis] == nullptr) continue;
-      writeKey(proxy, axis);
-      arrays[axis][count] = proxy;
-    }
-    ++count;
-  }
+  });
+  const PfxUInt32 count = n - removed;
   for (PfxBroadphaseProxy* a : arrays)
     if (a != nullptr) pfxParallelSort(a, count, param.workBuff, param.workBytes, taskManager);
+  result.numOutOfWorldProxies = outside;
   result.numProxies = static_cast<PfxInt32>(count);
   return SCE_PFX_OK;
 }
@@ -176,18 +209,23 @@ PfxInt32 pfxFindPairs(PfxFindPairsParam& param, PfxFindPairsResult& result, PfxT
   const bool ordered = std::is_sorted(param.proxies, param.proxies + param.numProxies, [&](const auto& a, const auto& b) {
     return pfxGetXYZMin(a, param.axis) < pfxGetXYZMin(b, param.axis);
   });
-  PfxUInt32 count = 0;
-  for (PfxUInt32 i = 0; i < param.numProxies; ++i) {
-    const PfxBroadphaseProxy& a = param.proxies[i];
-    const PfxUInt32 end = pfxGetXYZMax(a, param.axis);
-    for (PfxUInt32 j = i + 1; j < param.numProxies; ++j) {
-      const PfxBroadphaseProxy& b = param.proxies[j];
-      if (ordered && pfxGetXYZMin(b, param.axis) > end) break;
-      if (!overlap(a, b) || !mayPair(a, b)) continue;
-      if (count == param.maxPairs) return SCE_PFX_ERR_OUT_OF_MAX_PAIRS;
-      pairs[count++] = makePair(a, b);
+  // Workers append in any order; the order of the result is that of the keys, which are all different.
+  std::atomic<PfxUInt32> count = 0;
+  pfx::parallelFor(poolOf(taskManager), param.numProxies, kGrain, [&](pfx::TaskRange range) {
+    for (PfxUInt32 i = range.begin; i < range.end; ++i) {
+      const PfxBroadphaseProxy& a = param.proxies[i];
+      const PfxUInt32 end = pfxGetXYZMax(a, param.axis);
+      for (PfxUInt32 j = i + 1; j < param.numProxies; ++j) {
+        const PfxBroadphaseProxy& b = param.proxies[j];
+        if (ordered && pfxGetXYZMin(b, param.axis) > end) break;
+        if (!overlap(a, b) || !mayPair(a, b)) continue;
+        const PfxUInt32 at = count.fetch_add(1, std::memory_order_relaxed);
+        if (at >= param.maxPairs) return;
+        pairs[at] = makePair(a, b);
+      }
     }
-  }
+  });
+  if (count > param.maxPairs) return SCE_PFX_ERR_OUT_OF_MAX_PAIRS;
   result.pairs = pairs;
   result.numPairs = count;
   return pfxParallelSort(pairs, count, param.workBuff, param.workBytes, taskManager);

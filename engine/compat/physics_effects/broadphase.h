@@ -65,6 +65,15 @@ inline PfxUInt32 pfxGetTarget(const PfxBroadphaseProxy& p) { return p.get32(6); 
 PfxInt32 pfxUpdateBroadphaseProxy(PfxBroadphaseProxy& proxy, const PfxRigidState& state, const PfxCollidable& collidable,
                                   const PfxVector3& worldCenter, const PfxVector3& worldExtent, PfxUInt32 axis);
 
+// The same for three or six axes at once.
+PfxInt32 pfxUpdateBroadphaseProxy(PfxBroadphaseProxy& proxyX, PfxBroadphaseProxy& proxyY, PfxBroadphaseProxy& proxyZ,
+                                  const PfxRigidState& state, const PfxCollidable& collidable,
+                                  const PfxVector3& worldCenter, const PfxVector3& worldExtent);
+PfxInt32 pfxUpdateBroadphaseProxy(PfxBroadphaseProxy& proxyX, PfxBroadphaseProxy& proxyY, PfxBroadphaseProxy& proxyZ,
+                                  PfxBroadphaseProxy& proxyXb, PfxBroadphaseProxy& proxyYb, PfxBroadphaseProxy& proxyZb,
+                                  const PfxRigidState& state, const PfxCollidable& collidable,
+                                  const PfxVector3& worldCenter, const PfxVector3& worldExtent);
+
 struct PfxUpdateBroadphaseProxiesParam {
   void* workBuff = nullptr;
   PfxUInt32 workBytes = 0;

@@ -40,6 +40,8 @@ int pointToLeaveOut(const PfxContactPoint* const (&points)[5]) {
 
 constexpr PfxFloat kSamePoint = 0.02f;  // m, how far a point may wander from step to step
 
+constexpr PfxFloat kSameTwice = 1e-4f;   // m, closer points are one
+
 // One pair of bodies while its contacts are looked for.
 struct Detection {
   const PfxRigidState &a, &b;
@@ -204,6 +206,12 @@ void PfxContactManifold::addContactPoint(PfxFloat distance, const PfxVector3& no
 }
 
 void PfxContactManifold::addContactPoint(const PfxContactPoint& point) {
+  for (int i = 0; i < num_points_; ++i) {  // the same point again: the deeper one stays
+    if (lengthSqr(pfxReadVector3(points_[i].m_localPointA) - pfxReadVector3(point.m_localPointA)) > kSameTwice * kSameTwice) continue;
+    if (dot(points_[i].getNormal(), point.getNormal()) < 0.9f) continue;
+    if (point.m_distance < points_[i].m_distance) points_[i] = point;
+    return;
+  }
   if (num_points_ < SCE_PFX_NUMCONTACTS_PER_BODIES) {
     points_[num_points_++] = point;
     return;

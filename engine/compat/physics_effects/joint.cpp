@@ -18,6 +18,7 @@ bool place(PfxJoint& joint, ePfxJointType type, const PfxRigidState& a, const Pf
            const PfxJointInitParamBase& param, const pfx::Mat3& axes) {
   const pfx::Mat3 frame = param.enableJointFrame ? native(param.jointFrame) : axes;
   if (!frame.allFinite() || !native(param.anchorPoint).allFinite() || !(frame.determinant() > 0.0f)) return false;
+  if (!(param.bias >= 0.0f && param.bias <= 1.0f) || !(param.damping >= 0.0f && param.damping <= 1.0f)) return false;
   const PfxVector3 p = param.anchorPoint;
   joint = PfxJoint();
   joint.m_type = static_cast<PfxUInt8>(type);

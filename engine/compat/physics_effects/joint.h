@@ -13,9 +13,11 @@ namespace PhysicsEffects {
 enum ePfxJointType {
   kPfxJointBall = 0,
   kPfxJointSwingtwist,
+  kPfxJointSwingTwist = kPfxJointSwingtwist,
   kPfxJointHinge,
   kPfxJointSlider,
   kPfxJointFix,
+  kPfxJointFixed = kPfxJointFix,
   kPfxJointUniversal,
   kPfxJointCount
 };
@@ -95,7 +97,8 @@ struct PfxUniversalJointInitParam : PfxJointInitParamBase {
   PfxFloat swing2UpperAngle = 0.7f;
 };
 
-// Make the joint anew between two bodies as they stand now.
+// Make the joint anew between two bodies as they stand now. SCE_PFX_ERR_INVALID_VALUE: a value that is not finite, an axis
+// without length, bias or damping outside of 0 .. 1; the joint is not changed then.
 PfxInt32 pfxInitializeBallJoint(PfxJoint& joint, const PfxRigidState& stateA, const PfxRigidState& stateB,
                                 const PfxBallJointInitParam& param);
 PfxInt32 pfxInitializeSwingTwistJoint(PfxJoint& joint, const PfxRigidState& stateA, const PfxRigidState& stateB,
@@ -106,6 +109,10 @@ PfxInt32 pfxInitializeSliderJoint(PfxJoint& joint, const PfxRigidState& stateA, 
                                   const PfxSliderJointInitParam& param);
 PfxInt32 pfxInitializeFixedJoint(PfxJoint& joint, const PfxRigidState& stateA, const PfxRigidState& stateB,
                                  const PfxFixedJointInitParam& param);
+inline PfxInt32 pfxInitializeFixJoint(PfxJoint& joint, const PfxRigidState& stateA, const PfxRigidState& stateB,
+                                      const PfxFixedJointInitParam& param) {
+  return pfxInitializeFixedJoint(joint, stateA, stateB, param);
+}
 PfxInt32 pfxInitializeUniversalJoint(PfxJoint& joint, const PfxRigidState& stateA, const PfxRigidState& stateB,
                                      const PfxUniversalJointInitParam& param);
 

@@ -8,14 +8,14 @@ namespace PhysicsEffects {
 
 struct PfxSphere {
   PfxSphere() : m_radius(1.0f) {}
-  explicit PfxSphere(PfxFloat radius) : m_radius(radius) {}
+  PfxSphere(PfxFloat radius) : m_radius(radius) {}
   void set(PfxFloat radius) { m_radius = radius; }
   PfxFloat m_radius;
 };
 
 struct PfxBox {
   PfxBox() : m_half(1.0f) {}
-  explicit PfxBox(const PfxVector3& half) : m_half(half) {}
+  PfxBox(const PfxVector3& half) : m_half(half) {}
   PfxBox(PfxFloat x, PfxFloat y, PfxFloat z) : m_half(x, y, z) {}
   void set(const PfxVector3& half) { m_half = half; }
   void set(PfxFloat x, PfxFloat y, PfxFloat z) { m_half = PfxVector3(x, y, z); }
@@ -46,7 +46,7 @@ enum ePfxShapeType {
   kPfxShapeCylinder,
   kPfxShapeConvexMesh,
   kPfxShapeLargeTriMesh,
-  kPfxShapeCount
+  kPfxShapeCount  // of the kinds that there are
 };
 
 // One geometry placed in its body. Primitives are held by value, meshes by pointer: they must outlive the shape.
@@ -123,6 +123,8 @@ class PfxCollidable {
   PfxInt32 reset(PfxShape* shapes, const PfxUInt16* shapeIds, PfxUInt32 numShapes = 1);
   // SCE_PFX_ERR_OUT_OF_RANGE when all places are taken.
   PfxInt32 addShape(const PfxShape& shape);
+  PfxUInt16 getShapeId(PfxUInt32 i) const { return shape_ids_[i]; }
+  const PfxShape& getDefShape() const { return own_shape_; }
   // Computes the bounds; to be called when all shapes are there. SCE_PFX_ERR_INVALID_VALUE: no shape, a size that is
   // not finite and positive, or a mesh that was not created. The bounds are empty then.
   PfxInt32 finish();
@@ -144,6 +146,18 @@ class PfxCollidable {
   PfxUInt8 num_shapes_, max_shapes_;
   PfxFloat center_[3], half_[3];
   void* user_data_;
+};
+
+// Walks over the shapes of a collidable: for (i = 0; i < getNumShapes(); ++i, ++iterator) use *iterator.
+class PfxShapeIterator {
+ public:
+  explicit PfxShapeIterator(const PfxCollidable& collidable) : collidable_(collidable) {}
+  PfxShapeIterator& operator++() { return ++at_, *this; }
+  const PfxShape& operator*() const { return collidable_.getShape(at_); }
+
+ private:
+  const PfxCollidable& collidable_;
+  PfxUInt32 at_ = 0;
 };
 
 }  // namespace PhysicsEffects

@@ -11,7 +11,7 @@ namespace {
 // of boxes swaying that stand with two.
 constexpr int kContactVisits = 2;
 
-// Indices of the pairs to solve, in order; all pairs when there is no list.
+// Indices of the pairs to solve, in order.
 struct Selection {
   std::span<const PfxUInt32> contacts, joints;
 };
@@ -144,6 +144,7 @@ PfxInt32 pfxSolveConstraints(PfxSolveConstraintsParam& p, PfxTaskManager* taskMa
   if (p.workBuff == nullptr || p.iteration == 0) return SCE_PFX_ERR_INVALID_VALUE;
   if (!aligned16(p.workBuff)) return SCE_PFX_ERR_INVALID_ALIGN;
   if (p.workBytes < Groups::bytes(p.numRigidBodies, p.numContactPairs, p.numJointPairs)) return SCE_PFX_ERR_OUT_OF_BUFFER;
+  if (p.numRigidBodies == 0 && p.numContactPairs + p.numJointPairs > 0) return SCE_PFX_ERR_OUT_OF_RANGE;
   if (p.numRigidBodies > 0 && (p.offsetRigidStates == nullptr || p.offsetSolverBodies == nullptr)) return SCE_PFX_ERR_INVALID_VALUE;
   if (const PfxInt32 e = check(p, contactsOf(p)); e != SCE_PFX_OK) return e;
   if (const PfxInt32 e = check(p, jointsOf(p)); e != SCE_PFX_OK) return e;

@@ -100,22 +100,46 @@ PfxInt32 pfxSetupJointConstraints(PfxSetupJointConstraintsParam& p, PfxTaskManag
   return SCE_PFX_OK;
 }
 
+namespace {
+
+// Share of the velocity that remains after a step. Bodies have mostly the same damping, so the last power is kept.
+class Remaining {
+ public:
+  explicit Remaining(PfxFloat time_step) : steps_(60.0f * time_step) {}
+  PfxFloat operator()(PfxFloat damping) {
+    if (damping >= 1.0f) return 1.0f;
+    if (damping != damping_) damping_ = damping, power_ = pfx::pow(SCE_PFX_MAX(damping, 1e-6f), steps_);
+    return power_;
+  }
+
+ private:
+  PfxFloat steps_, damping_ = 1.0f, power_ = 1.0f;
+};
+
+void moveBody(PfxRigidState& state, PfxFloat h, Remaining& remaining) {
+  if (state.getMotionType() == kPfxMotionTypeFixed || state.isAsleep()) return;
+  const PfxVector3 v = state.getLinearVelocity(), w = state.getAngularVelocity();
+  state.setPosition(state.getPosition() + v * h);
+  state.setOrientation(normalize(compat(pfx::expMap(native(w * h))) * state.getOrientation()));
+  if (!pfx::isDynamic(native(state).motion_type)) return;
+  state.setLinearVelocity(v * remaining(state.getLinearDamping()));
+  state.setAngularVelocity(w * remaining(state.getAngularDamping()));
+}
+
+}  // namespace
+
+PfxInt32 pfxIntegrate(PfxRigidState& state, const PfxRigidBody&, PfxFloat timeStep) {
+  if (!(timeStep > 0.0f)) return SCE_PFX_ERR_INVALID_VALUE;
+  Remaining remaining(timeStep);
+  moveBody(state, timeStep, remaining);
+  return SCE_PFX_OK;
+}
+
 PfxInt32 pfxUpdateRigidStates(PfxUpdateRigidStatesParam& param, PfxTaskManager* taskManager) {
   if (param.states == nullptr || param.bodies == nullptr || !(param.timeStep > 0.0f)) return SCE_PFX_ERR_INVALID_VALUE;
-  const PfxFloat h = param.timeStep;
   pfx::parallelFor(poolOf(taskManager), param.numRigidBodies, kBodyGrain, [&](pfx::TaskRange range) {
-    for (uint32_t i = range.begin; i < range.end; ++i) {
-      PfxRigidState& state = param.states[i];
-      const PfxVector3 v = state.getLinearVelocity(), w = state.getAngularVelocity();
-      if (state.getMotionType() == kPfxMotionTypeFixed || state.isAsleep()) continue;
-      state.setPosition(state.getPosition() + v * h);
-      const PfxQuat q = compat(pfx::expMap(native(w * h))) * state.getOrientation();
-      state.setOrientation(normalize(q));
-      if (!pfx::isDynamic(native(state).motion_type)) continue;
-      const auto remaining = [h](PfxFloat damping) { return damping < 1.0f ? pfx::pow(SCE_PFX_MAX(damping, 1e-6f), 60.0f * h) : 1.0f; };
-      state.setLinearVelocity(v * remaining(state.getLinearDamping()));
-      state.setAngularVelocity(w * remaining(state.getAngularDamping()));
-    }
+    Remaining remaining(param.timeStep);
+    for (uint32_t i = range.begin; i < range.end; ++i) moveBody(param.states[i], param.timeStep, remaining);
   });
   return SCE_PFX_OK;
 }

@@ -90,6 +90,8 @@ PfxUInt32 pfxGetWorkBytesOfSolveConstraints(PfxUInt32 numRigidBodies, PfxUInt32 
                                             PfxUInt32 maxTasks = 1);
 // Changes velocities only. SCE_PFX_ERR_OUT_OF_BUFFER, SCE_PFX_ERR_INVALID_ALIGN: the work buffer.
 PfxInt32 pfxSolveConstraints(PfxSolveConstraintsParam& param, PfxTaskManager* taskManager = nullptr);
+// Moves one body by its velocities; the stage below does so for all.
+PfxInt32 pfxIntegrate(PfxRigidState& state, const PfxRigidBody& body, PfxFloat timeStep);
 // Moves all bodies by their velocities.
 PfxInt32 pfxUpdateRigidStates(PfxUpdateRigidStatesParam& param, PfxTaskManager* taskManager = nullptr);
 

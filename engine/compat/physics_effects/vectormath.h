@@ -39,6 +39,9 @@ class boolInVec {
   bool value_;
 };
 
+inline floatInVec select(floatInVec a, floatInVec b, boolInVec choose_b) { return choose_b.getAsBool() ? b : a; }
+inline boolInVec select(boolInVec a, boolInVec b, boolInVec choose_b) { return choose_b.getAsBool() ? b : a; }
+
 namespace Aos {
 
 class Vector4;
@@ -115,6 +118,10 @@ class alignas(16) Vector4 {
   explicit Vector4(const Vector3& v) : Vector4(v, 0.0f) {}
   explicit Vector4(const Point3& p) : e_{p[0], p[1], p[2], 1} {}
   explicit Vector4(float all) : e_{all, all, all, all} {}
+  static Vector4 xAxis() { return Vector4(1, 0, 0, 0); }
+  static Vector4 yAxis() { return Vector4(0, 1, 0, 0); }
+  static Vector4 zAxis() { return Vector4(0, 0, 1, 0); }
+  static Vector4 wAxis() { return Vector4(0, 0, 0, 1); }
   float getX() const { return e_[0]; }
   float getY() const { return e_[1]; }
   float getZ() const { return e_[2]; }
@@ -130,17 +137,20 @@ class alignas(16) Vector4 {
   float& operator[](int i) { return e_[i]; }
   float operator[](int i) const { return e_[i]; }
   Vector4 operator-() const { return Vector4(-e_[0], -e_[1], -e_[2], -e_[3]); }
+  Vector4& operator+=(const Vector4& b) { return *this = Vector4(e_[0] + b[0], e_[1] + b[1], e_[2] + b[2], e_[3] + b[3]); }
+  Vector4& operator-=(const Vector4& b) { return *this += -b; }
+  Vector4& operator*=(float s) { return *this = Vector4(e_[0] * s, e_[1] * s, e_[2] * s, e_[3] * s); }
+  Vector4& operator/=(float s) { return *this = Vector4(e_[0] / s, e_[1] / s, e_[2] / s, e_[3] / s); }
 
  private:
   float e_[4];
 };
-inline Vector4 operator+(const Vector4& a, const Vector4& b) {
-  return Vector4(a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]);
-}
-inline Vector4 operator-(const Vector4& a, const Vector4& b) { return a + -b; }
-inline Vector4 operator*(const Vector4& a, float s) { return Vector4(a[0] * s, a[1] * s, a[2] * s, a[3] * s); }
-inline Vector4 operator*(float s, const Vector4& a) { return a * s; }
-inline Vector4 operator/(const Vector4& a, float s) { return Vector4(a[0] / s, a[1] / s, a[2] / s, a[3] / s); }
+inline Vector4 operator+(Vector4 a, const Vector4& b) { return a += b; }
+inline Vector4 operator-(Vector4 a, const Vector4& b) { return a -= b; }
+inline Vector4 operator*(Vector4 a, float s) { return a *= s; }
+inline Vector4 operator*(float s, Vector4 a) { return a *= s; }
+inline Vector4 operator/(Vector4 a, float s) { return a /= s; }
+inline Vector4 mulPerElem(const Vector4& a, const Vector4& b) { return Vector4(a[0] * b[0], a[1] * b[1], a[2] * b[2], a[3] * b[3]); }
 inline float dot(const Vector4& a, const Vector4& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
 
 // x, y, z, w; a unit quaternion rotates.
@@ -168,15 +178,24 @@ class alignas(16) Quat {
   Vector3 getXYZ() const { return Vector3(e_[0], e_[1], e_[2]); }
   Quat& setXYZ(const Vector3& v) { return *this = Quat(v, e_[3]); }
   float getElem(int i) const { return e_[i]; }
+  Quat& setElem(int i, float v) { return e_[i] = v, *this; }
   float& operator[](int i) { return e_[i]; }
   float operator[](int i) const { return e_[i]; }
   Quat operator-() const { return Quat(-e_[0], -e_[1], -e_[2], -e_[3]); }
+  Quat& operator+=(const Quat& b) { return *this = Quat(e_[0] + b[0], e_[1] + b[1], e_[2] + b[2], e_[3] + b[3]); }
+  Quat& operator-=(const Quat& b) { return *this += -b; }
   Quat& operator*=(const Quat& b);
   Quat& operator*=(float s) { return *this = Quat(e_[0] * s, e_[1] * s, e_[2] * s, e_[3] * s); }
 
  private:
   float e_[4];
 };
+
+inline float lengthSqr(const Vector4& v) { return dot(v, v); }
+inline float length(const Vector4& v) { return std::sqrt(dot(v, v)); }
+inline Vector4 normalize(const Vector4& v) { return v / length(v); }
+inline Vector4 lerp(float t, const Vector4& a, const Vector4& b) { return a + t * (b - a); }
+inline Vector4 select(const Vector4& a, const Vector4& b, bool choose_b) { return choose_b ? b : a; }
 
 inline float dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 inline Vector3 cross(const Vector3& a, const Vector3& b) {
@@ -202,10 +221,22 @@ inline float minElem(const Vector3& a) { return -maxElem(-a); }
 inline float sum(const Vector3& a) { return a[0] + a[1] + a[2]; }
 inline Vector3 lerp(float t, const Vector3& a, const Vector3& b) { return a + t * (b - a); }
 inline Point3 lerp(float t, const Point3& a, const Point3& b) { return a + t * (b - a); }
+inline Vector3 sqrtPerElem(const Vector3& a) { return Vector3(std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2])); }
+inline float distFromOrigin(const Point3& p) { return length(Vector3(p)); }
+inline float distSqrFromOrigin(const Point3& p) { return lengthSqr(Vector3(p)); }
+inline float projection(const Point3& p, const Vector3& unit) { return dot(Vector3(p), unit); }
+inline Point3 scale(const Point3& p, float s) { return Point3(s * Vector3(p)); }
+inline Point3 scale(const Point3& p, const Vector3& s) { return Point3(mulPerElem(Vector3(p), s)); }
+inline Point3 mulPerElem(const Point3& a, const Point3& b) { return Point3(mulPerElem(Vector3(a), Vector3(b))); }
+inline Point3 absPerElem(const Point3& a) { return Point3(absPerElem(Vector3(a))); }
+inline Point3 maxPerElem(const Point3& a, const Point3& b) { return Point3(maxPerElem(Vector3(a), Vector3(b))); }
+inline Point3 minPerElem(const Point3& a, const Point3& b) { return Point3(minPerElem(Vector3(a), Vector3(b))); }
+inline Point3 select(const Point3& a, const Point3& b, bool choose_b) { return choose_b ? b : a; }
 inline Vector3 select(const Vector3& a, const Vector3& b, bool choose_b) { return choose_b ? b : a; }
 
-inline Quat operator+(const Quat& a, const Quat& b) { return Quat(a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]); }
-inline Quat operator-(const Quat& a, const Quat& b) { return a + -b; }
+inline Quat operator+(Quat a, const Quat& b) { return a += b; }
+inline Quat operator-(Quat a, const Quat& b) { return a -= b; }
+inline Quat operator/(const Quat& a, float s) { return Quat(a[0] / s, a[1] / s, a[2] / s, a[3] / s); }
 inline Quat operator*(Quat a, float s) { return a *= s; }
 inline Quat operator*(float s, Quat a) { return a *= s; }
 inline Quat operator*(const Quat& a, const Quat& b) {
@@ -224,6 +255,7 @@ inline Vector3 rotate(const Quat& q, const Vector3& v) {
 }
 inline Quat lerp(float t, const Quat& a, const Quat& b) { return a + t * (b - a); }
 Quat slerp(float t, const Quat& unit_a, const Quat& unit_b);
+inline Quat select(const Quat& a, const Quat& b, bool choose_b) { return choose_b ? b : a; }
 
 }  // namespace Aos
 }  // namespace Scalar

@@ -72,6 +72,11 @@ inline Matrix3 crossMatrix(const Vector3& v) {
   return Matrix3(Vector3(0, v[2], -v[1]), Vector3(-v[2], 0, v[0]), Vector3(v[1], -v[0], 0));
 }
 
+inline Matrix3 outer(const Vector3& a, const Vector3& b) { return Matrix3(a * b[0], a * b[1], a * b[2]); }
+inline Vector3 rowMul(const Vector3& v, const Matrix3& m) { return transpose(m) * v; }
+inline Matrix3 appendScale(const Matrix3& m, const Vector3& s) { return Matrix3(m[0] * s[0], m[1] * s[1], m[2] * s[2]); }
+inline Matrix3 prependScale(const Vector3& s, const Matrix3& m) { return mulPerElem(m, Matrix3(s, s, s)); }
+
 // A linear map followed by a translation.
 class Transform3 {
  public:
@@ -89,6 +94,7 @@ class Transform3 {
   static Transform3 rotationX(float radians) { return rotation(Quat::rotationX(radians)); }
   static Transform3 rotationY(float radians) { return rotation(Quat::rotationY(radians)); }
   static Transform3 rotationZ(float radians) { return rotation(Quat::rotationZ(radians)); }
+  static Transform3 rotationZYX(const Vector3& radians) { return Transform3(Matrix3::rotationZYX(radians), Vector3(0.0f)); }
   static Transform3 scale(const Vector3& s) { return Transform3(Matrix3::scale(s), Vector3(0.0f)); }
   const Matrix3& getUpper3x3() const { return upper_; }
   const Vector3& getTranslation() const { return translation_; }
@@ -96,8 +102,20 @@ class Transform3 {
   Transform3& setTranslation(const Vector3& t) { return translation_ = t, *this; }
   const Vector3& getCol(int i) const { return i < 3 ? upper_[i] : translation_; }
   Transform3& setCol(int i, const Vector3& v) { return (i < 3 ? upper_[i] : translation_) = v, *this; }
+  const Vector3& getCol0() const { return upper_[0]; }
+  const Vector3& getCol1() const { return upper_[1]; }
+  const Vector3& getCol2() const { return upper_[2]; }
+  const Vector3& getCol3() const { return translation_; }
+  Transform3& setCol0(const Vector3& v) { return setCol(0, v); }
+  Transform3& setCol1(const Vector3& v) { return setCol(1, v); }
+  Transform3& setCol2(const Vector3& v) { return setCol(2, v); }
+  Transform3& setCol3(const Vector3& v) { return setCol(3, v); }
+  Vector4 getRow(int i) const { return Vector4(upper_[0][i], upper_[1][i], upper_[2][i], translation_[i]); }
+  float getElem(int col, int row) const { return getCol(col)[row]; }
+  Transform3& setElem(int col, int row, float v) { return (*this)[col][row] = v, *this; }
   Vector3& operator[](int i) { return i < 3 ? upper_[i] : translation_; }
   const Vector3& operator[](int i) const { return getCol(i); }
+  Transform3& operator*=(const Transform3& b);
 
  private:
   Matrix3 upper_;
@@ -110,6 +128,7 @@ inline Point3 operator*(const Transform3& t, const Point3& p) {
 inline Transform3 operator*(const Transform3& a, const Transform3& b) {
   return Transform3(a.getUpper3x3() * b.getUpper3x3(), a.getUpper3x3() * b.getTranslation() + a.getTranslation());
 }
+inline Transform3& Transform3::operator*=(const Transform3& b) { return *this = *this * b; }
 inline Transform3 inverse(const Transform3& t) {
   const Matrix3 m = inverse(t.getUpper3x3());
   return Transform3(m, -(m * t.getTranslation()));
@@ -130,8 +149,27 @@ class Matrix4 {
   static Matrix4 translation(const Vector3& t) { return Matrix4(Matrix3::identity(), t); }
   static Matrix4 rotation(const Quat& q) { return Matrix4(q, Vector3(0.0f)); }
   static Matrix4 scale(const Vector3& s) { return Matrix4(Matrix3::scale(s), Vector3(0.0f)); }
+  static Matrix4 rotation(float radians, const Vector3& unit_axis) { return rotation(Quat::rotation(radians, unit_axis)); }
+  static Matrix4 rotationX(float radians) { return rotation(Quat::rotationX(radians)); }
+  static Matrix4 rotationY(float radians) { return rotation(Quat::rotationY(radians)); }
+  static Matrix4 rotationZ(float radians) { return rotation(Quat::rotationZ(radians)); }
+  explicit Matrix4(float all) : c_{Vector4(all), Vector4(all), Vector4(all), Vector4(all)} {}
   const Vector4& getCol(int i) const { return c_[i]; }
+  const Vector4& getCol0() const { return c_[0]; }
+  const Vector4& getCol1() const { return c_[1]; }
+  const Vector4& getCol2() const { return c_[2]; }
+  const Vector4& getCol3() const { return c_[3]; }
   Matrix4& setCol(int i, const Vector4& v) { return c_[i] = v, *this; }
+  Matrix4& setCol0(const Vector4& v) { return setCol(0, v); }
+  Matrix4& setCol1(const Vector4& v) { return setCol(1, v); }
+  Matrix4& setCol2(const Vector4& v) { return setCol(2, v); }
+  Matrix4& setCol3(const Vector4& v) { return setCol(3, v); }
+  Vector4 getRow(int i) const { return Vector4(c_[0][i], c_[1][i], c_[2][i], c_[3][i]); }
+  Matrix4& setUpper3x3(const Matrix3& m) {
+    for (int i = 0; i < 3; ++i) c_[i].setXYZ(m[i]);
+    return *this;
+  }
+  Matrix4& setTranslation(const Vector3& t) { return c_[3].setXYZ(t), *this; }
   float getElem(int col, int row) const { return c_[col][row]; }
   Matrix4& setElem(int col, int row, float v) { return c_[col][row] = v, *this; }
   Vector4& operator[](int i) { return c_[i]; }
@@ -148,6 +186,14 @@ inline Vector4 operator*(const Matrix4& m, const Vector4& v) {
 inline Vector4 operator*(const Matrix4& m, const Vector3& v) { return m * Vector4(v); }
 inline Vector4 operator*(const Matrix4& m, const Point3& p) { return m * Vector4(p); }
 inline Matrix4 operator*(const Matrix4& a, const Matrix4& b) { return Matrix4(a * b[0], a * b[1], a * b[2], a * b[3]); }
+inline Matrix4 operator*(const Matrix4& a, const Transform3& b) { return a * Matrix4(b); }
+inline Matrix4 operator*(const Matrix4& a, float s) { return Matrix4(a[0] * s, a[1] * s, a[2] * s, a[3] * s); }
+inline Matrix4 operator*(float s, const Matrix4& a) { return a * s; }
+inline Matrix4 operator+(const Matrix4& a, const Matrix4& b) { return Matrix4(a[0] + b[0], a[1] + b[1], a[2] + b[2], a[3] + b[3]); }
+inline Matrix4 operator-(const Matrix4& a, const Matrix4& b) { return Matrix4(a[0] - b[0], a[1] - b[1], a[2] - b[2], a[3] - b[3]); }
+// Of a matrix whose last row is (0, 0, 0, 1).
+inline Matrix4 affineInverse(const Matrix4& m) { return Matrix4(inverse(Transform3(m.getUpper3x3(), m.getTranslation()))); }
+inline Matrix4 orthoInverse(const Matrix4& m) { return Matrix4(orthoInverse(Transform3(m.getUpper3x3(), m.getTranslation()))); }
 inline Matrix4 transpose(const Matrix4& m) {
   Matrix4 t;
   for (int i = 0; i < 4; ++i)
