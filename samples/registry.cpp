@@ -16,6 +16,7 @@ constexpr std::array kSamples = {
     serializeScenes,
     xmlImportScenes,
     accuracyScenes,
+    hardCaseScenes,
     benchmarkScenes,
 };
 
