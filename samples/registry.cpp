@@ -5,8 +5,8 @@
 namespace samples {
 namespace {
 
-constexpr std::array kSamples = {simpleScenes, stableScenes,    sleepScenes,    motionTypeScenes,
-                                 jointScenes,  serializeScenes, xmlImportScenes};
+constexpr std::array kSamples = {simpleScenes, stableScenes,    sleepScenes,     motionTypeScenes,
+                                 jointScenes,  serializeScenes, characterScenes, xmlImportScenes, tutorialScenes};
 
 std::vector<SceneEntry> allScenes() {
   std::vector<SceneEntry> all;
@@ -27,7 +27,8 @@ std::vector<const SceneEntry*> findScenes(std::string_view target) {
   const std::string_view sample = target.substr(0, slash);
   std::vector<const SceneEntry*> found;
   for (const SceneEntry& e : scenes())
-    if (e.sample == sample && (slash == target.npos || e.name == target.substr(slash + 1))) found.push_back(&e);
+    if (e.sample == sample && (slash == target.npos || e.name == target.substr(slash + 1)))
+      found.push_back(&e);
   return found;
 }
 

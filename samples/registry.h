@@ -13,6 +13,8 @@ std::vector<SceneEntry> sleepScenes();       // 3_sleep
 std::vector<SceneEntry> motionTypeScenes();  // 4_motion_type
 std::vector<SceneEntry> jointScenes();       // 6_joint
 std::vector<SceneEntry> serializeScenes();   // 7_serialize
+std::vector<SceneEntry> characterScenes();   // 10_character_ctrl
 std::vector<SceneEntry> xmlImportScenes();   // 11_xml_import
+std::vector<SceneEntry> tutorialScenes();    // tutorial
 
 }  // namespace samples
