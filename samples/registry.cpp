@@ -5,8 +5,21 @@
 namespace samples {
 namespace {
 
-constexpr std::array kSamples = {simpleScenes, stableScenes,    sleepScenes,     motionTypeScenes,
-                                 jointScenes,  serializeScenes, characterScenes, xmlImportScenes, tutorialScenes};
+// In the order of the browser.
+constexpr std::array kSamples = {
+    simpleScenes,
+    stableScenes,
+    sleepScenes,
+    motionTypeScenes,
+    raycastScenes,
+    jointScenes,
+    serializeScenes,
+    characterScenes,
+    xmlImportScenes,
+    tutorialScenes,
+    accuracyScenes,
+    benchmarkScenes,
+};
 
 std::vector<SceneEntry> allScenes() {
   std::vector<SceneEntry> all;

@@ -24,6 +24,7 @@ void wakeTouched(World::Impl& world);        // islands that something touches w
 void breakJoints(World::Impl& world);        // joints beyond their strength are removed
 void rememberPoses(World::Impl& world);      // where everything that moves starts from
 void stopAtImpacts(World::Impl& world);      // what moves far goes through nothing
+void moveParticles(World::Impl& world);       // particle systems, and the bodies that they push
 void putToSleep(World::Impl& world);         // islands at rest fall asleep
 
 // Fills in the bodies of a component for a step.

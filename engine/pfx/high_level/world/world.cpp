@@ -98,6 +98,7 @@ void World::removeBody(BodyId id) {
     const JointLink& link = impl_->joint_store.links[i];
     if (link.exists && (link.body_a == id.index || link.body_b == id.index)) removeJoint(jointId(i));
   }
+  impl_->particle_store.forgetBody(id.index);
   impl_->store.remove(id.index);
   impl_->active_changed = true;
   impl_->tree_is_current = false;
@@ -272,6 +273,6 @@ std::vector<std::string_view> World::stages() const {
   return names;
 }
 
-uint64_t World::stateHash() const { return hashStates(impl_->store.states); }
+uint64_t World::stateHash() const { return impl_->particle_store.hash(hashStates(impl_->store.states)); }
 
 }  // namespace pfx

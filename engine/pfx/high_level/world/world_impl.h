@@ -8,6 +8,7 @@
 #include "pfx/high_level/pipeline/stage.h"
 #include "pfx/high_level/world/body_store.h"
 #include "pfx/high_level/world/joint_store.h"
+#include "pfx/high_level/world/particle_store.h"
 #include "pfx/high_level/world/world.h"
 #include "pfx/low_level/broadphase/decompose.h"
 #include "pfx/low_level/broadphase/sweep.h"
@@ -100,6 +101,8 @@ struct World::Impl {
   std::vector<BodyMotion> motions;
   std::vector<uint8_t> solver_dynamic;
   SoftStep soft_step;
+
+  ParticleStore particle_store;
 
   std::vector<StageTime> times;
 
