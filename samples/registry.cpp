@@ -18,6 +18,7 @@ constexpr std::array kSamples = {
     xmlImportScenes,
     tutorialScenes,
     accuracyScenes,
+    hardCaseScenes,
     benchmarkScenes,
 };
 
