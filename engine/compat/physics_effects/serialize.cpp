@@ -3,7 +3,6 @@
 #include <array>
 
 #include "compat/physics_effects/serialize_records.h"
-#include "pfx/util/serialize/document.h"
 
 namespace sce::PhysicsEffects {
 namespace {
@@ -14,11 +13,13 @@ using pfx::serial::TextWriter;
 
 constexpr pfx::serial::DocumentFormat kFormat{"physics-effects", 1};
 
+template <class A, class T>
+void ioRecord(A& archive, SerializeArrays all, T& record) {
+  PfxSerializeAccess::io(archive, all, record);
+}
 template <class T>
 RecordArray arrayOf(const char* tag, const char* record_tag) {
-  constexpr auto write = [](TextWriter& out, SerializeArrays all, T& record) { PfxSerializeAccess::io(out, all, record); };
-  constexpr auto read = [](TextReader& in, SerializeArrays all, T& record) { PfxSerializeAccess::io(in, all, record); };
-  return pfx::serial::recordArray<T, +write, +read>(tag, record_tag);
+  return pfx::serial::recordArray<T, ioRecord<TextWriter, T>, ioRecord<TextReader, T>>(tag, record_tag);
 }
 
 // Meshes own memory, so they are made only where they are kept.

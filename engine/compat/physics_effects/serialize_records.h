@@ -4,6 +4,7 @@
 #include "compat/physics_effects/native.h"
 #include "compat/physics_effects/serialize.h"
 #include "pfx/base_level/shape/convex_hull.h"
+#include "pfx/util/serialize/document.h"
 #include "pfx/util/serialize/shape_records.h"
 
 namespace sce::PhysicsEffects {
