@@ -3,11 +3,9 @@
 #include "samples/shared/builders.h"
 
 namespace samples {
-namespace {
 
 using namespace pfx;
 
-// One body of each kind of shape, in the air.
 void addPrimitives(World& world) {
   addBody(world, "sphere", Sphere{1.0f}, Vec3(-5.0f, 5.0f, 0.0f), 1.0f);
   addBody(world, "box", Box{Vec3::Ones()}, Vec3(0.0f, 5.0f, 5.0f), 1.0f);
@@ -23,6 +21,16 @@ void addPrimitives(World& world) {
                  .angular_damping = 1.0f});
 }
 
+void addLandscape(World& world) {
+  const Quat tilt = rotation(Vec3::UnitX(), 0.06f) * rotation(Vec3::UnitY(), 0.7f);
+  world.addBody({.name = "landscape",
+                 .pose = {.position = Vec3(0.0f, -2.0f, 0.0f), .orientation = tilt},
+                 .motion_type = MotionType::Fixed,
+                 .shapes = {shape(world.keep(makeTerrain({})))}});
+}
+
+namespace {
+
 struct Primitives final : Scene {
   void build(World& world) override {
     addGround(world);
@@ -32,11 +40,7 @@ struct Primitives final : Scene {
 
 struct Landscape final : Scene {
   void build(World& world) override {
-    const Quat tilt = rotation(Vec3::UnitX(), 0.06f) * rotation(Vec3::UnitY(), 0.7f);
-    world.addBody({.name = "landscape",
-                   .pose = {.position = Vec3(0.0f, -2.0f, 0.0f), .orientation = tilt},
-                   .motion_type = MotionType::Fixed,
-                   .shapes = {shape(world.keep(makeTerrain({})))}});
+    addLandscape(world);
     addPrimitives(world);
   }
 };

@@ -11,4 +11,8 @@ namespace samples {
 // The basic scenes under the name of a sample and with its world settings.
 std::vector<SceneEntry> basicScenes(std::string_view sample, const pfx::WorldDef& world);
 
+// Their contents: one body of each kind of shape in the air, and the bowl of triangles that they land in.
+void addPrimitives(pfx::World& world);
+void addLandscape(pfx::World& world);
+
 }  // namespace samples

@@ -2,36 +2,10 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <atomic>
-#include <cstdlib>
-#include <new>
 
+#include "pfx/high_level/character/character.h"
 #include "pfx/high_level/world/world.h"
-
-namespace {
-
-std::atomic<long> g_allocations{0};
-
-}  // namespace
-
-// The compiler cannot see that both sides are replaced together.
-#pragma GCC diagnostic ignored "-Wmismatched-new-delete"
-
-void* operator new(std::size_t size) {
-  ++g_allocations;
-  if (void* p = std::malloc(size)) return p;
-  throw std::bad_alloc();
-}
-void* operator new(std::size_t size, std::align_val_t alignment) {
-  ++g_allocations;
-  const auto a = static_cast<std::size_t>(alignment);
-  if (void* p = std::aligned_alloc(a, (size + a - 1) / a * a)) return p;
-  throw std::bad_alloc();
-}
-void operator delete(void* p) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t) noexcept { std::free(p); }
-void operator delete(void* p, std::align_val_t) noexcept { std::free(p); }
-void operator delete(void* p, std::size_t, std::align_val_t) noexcept { std::free(p); }
+#include "tests/support/counted_allocations.h"
 
 namespace {
 
@@ -66,9 +40,33 @@ TEST_P(WarmWorld, AWarmStepDoesNotAllocate) {
   build(world);
   for (int i = 0; i < 120; ++i) world.step(1.0f / 60.0f);
   ASSERT_GT(world.counts().contact_points, 200u) << "the wall must touch, or the test proves nothing";
-  const long before = g_allocations.load();
+  const long before = support::g_allocations.load();
   for (int i = 0; i < 600; ++i) world.step(1.0f / 60.0f);
-  EXPECT_EQ(g_allocations.load() - before, 0);
+  EXPECT_EQ(support::g_allocations.load() - before, 0);
+}
+
+TEST(CharacterAllocation, AWarmCharacterDoesNotAllocate) {
+  World world;
+  addBox(world, Vec3(0.0f, -1.0f, 0.0f), Vec3(100.0f, 1.0f, 20.0f), MotionType::Fixed);
+  for (int i = 0; i < 8; ++i)
+    addBox(world, Vec3(4.0f + 2.5f * static_cast<float>(i), 0.1f, 0.0f), Vec3(0.5f, 0.1f, 1.0f),
+           i % 2 == 0 ? MotionType::Fixed : MotionType::Active);
+  Character characters[2] = {addCharacter(world, {}), addCharacter(world, {.feet = Vec3(1.0f, 0.0f, 0.5f)})};
+  CharacterInput inputs[2];
+  // To and fro over the same obstacles; the first way warms the buffers.
+  const auto run = [&](int steps) {
+    for (int i = 0; i < steps; ++i) {
+      const Vec3 along(i % 600 < 300 ? 1.0f : -1.0f, 0.0f, 0.0f);
+      for (CharacterInput& input : inputs)
+        input = {.direction = along, .run = true, .jump = i % 100 == 50, .crouch = i % 200 > 170};
+      updateCharacters(world, characters, inputs, 1.0f / 60.0f);
+      world.step(1.0f / 60.0f);
+    }
+  };
+  run(1200);
+  const long before = support::g_allocations.load();
+  run(1200);
+  EXPECT_EQ(support::g_allocations.load() - before, 0);
 }
 
 // Islands that are solved by Newton's method keep their factor.
@@ -83,9 +81,9 @@ TEST(Allocation, AWarmColumnDoesNotAllocate) {
   for (int i = 0; i < 120; ++i) world.step(1.0f / 60.0f);
   const auto stages = world.stages();
   ASSERT_NE(std::find(stages.begin(), stages.end(), "island solver"), stages.end());
-  const long before = g_allocations.load();
+  const long before = support::g_allocations.load();
   for (int i = 0; i < 300; ++i) world.step(1.0f / 60.0f);
-  EXPECT_EQ(g_allocations.load() - before, 0);
+  EXPECT_EQ(support::g_allocations.load() - before, 0);
 }
 
 INSTANTIATE_TEST_SUITE_P(Pipelines, WarmWorld, testing::Values(Pipeline::Simple, Pipeline::Stable));

@@ -6,6 +6,7 @@
 #include "pfx/base_level/math/trig.h"
 #include "pfx/high_level/pipeline/stages.h"
 #include "pfx/high_level/world/world_impl.h"
+#include "pfx/low_level/collision/body_pair.h"
 #include "pfx/low_level/continuous/time_of_impact.h"
 
 namespace pfx::stage {
@@ -36,24 +37,49 @@ bool isFast(const World::Impl& w, uint32_t i) {
   return sweep.motion.norm() + sweep.rotation.norm() * w.store.radius[i] > kFast * w.store.size[i];
 }
 
-// First touch of the bodies of a pair. Bodies that touch already have contacts, which let them slide and roll
-// on each other; only the core of the faster one must not go through.
-Impact firstTouch(const World::Impl& w, const Pair& pair, float tolerance) {
-  const bool touching = !w.contacts.manifolds(pair.contact_id).empty();
-  const auto core = [&](uint32_t i) { return Shape{Sphere{0.5f * w.store.size[i]}, {}}; };
-  const Shape core_a = core(pair.body_a), core_b = core(pair.body_b);
-  auto shapes_a = w.store.collidables[pair.body_a].shapes(),
-       shapes_b = w.store.collidables[pair.body_b].shapes();
-  if (touching && w.is_fast[pair.body_a]) shapes_a = {&core_a, 1};
-  if (touching && w.is_fast[pair.body_b]) shapes_b = {&core_b, 1};
+// Which shapes a pair is swept with.
+struct Swept {
+  std::span<const Shape> a, b;
+  float tolerance;
+};
+
+Impact firstTouch(const World::Impl& w, const Pair& pair, const Swept& swept) {
   const Sweep sweep_a = sweepOf(w, pair.body_a), sweep_b = sweepOf(w, pair.body_b);
   Impact first;
-  for (const Shape& a : shapes_a)
-    for (const Shape& b : shapes_b) {
-      const Impact impact = timeOfImpact({a, sweep_a, b, sweep_b, tolerance, first.fraction});
+  for (const Shape& a : swept.a)
+    for (const Shape& b : swept.b) {
+      const Impact impact = timeOfImpact({a, sweep_a, b, sweep_b, swept.tolerance, first.fraction});
       if (impact.state == Impact::State::Hit) first = impact;
     }
   return first;
+}
+
+// Whether an impact is on an edge where the surface goes on in another mesh.
+bool isOnSeam(const World::Impl& w, const Pair& pair, const Impact& impact, float tolerance) {
+  const bool mesh_a = hasMesh(w.store.collidables[pair.body_a]);
+  const auto meshes = meshPairsOf(w.detector.meshPairs(), mesh_a ? pair.body_b : pair.body_a);
+  if (impact.triangle == kNoFacet || meshes.size() < 2) return false;
+  const SurfacePoint at{impact.point, mesh_a ? impact.normal : Vec3(-impact.normal), tolerance};
+  SeamVerdict verdict;
+  for (const MeshPair& m : meshes)
+    judge(w.store.collidables[m.mesh_body], sweepOf(w, m.mesh_body).at(impact.fraction), at, verdict);
+  return verdict.isGhost();
+}
+
+// First touch of the bodies of a pair. Bodies that touch already have contacts, which let them slide and roll
+// on each other; only the core of the faster one must not go through.
+Impact firstImpact(const World::Impl& w, const Pair& pair, float tolerance) {
+  const auto shapes_a = w.store.collidables[pair.body_a].shapes(), shapes_b = w.store.collidables[pair.body_b].shapes();
+  if (w.contacts.manifolds(pair.contact_id).empty()) {
+    const Impact impact = firstTouch(w, pair, {shapes_a, shapes_b, tolerance});
+    if (!impact.touches() || !isOnSeam(w, pair, impact, tolerance)) return impact;
+  }
+  const auto core = [&](uint32_t i) { return Shape{Sphere{0.5f * w.store.size[i]}, {}}; };
+  const Shape core_a = core(pair.body_a), core_b = core(pair.body_b);
+  Swept cores{shapes_a, shapes_b, tolerance};
+  if (w.is_fast[pair.body_a]) cores.a = {&core_a, 1};
+  if (w.is_fast[pair.body_b]) cores.b = {&core_b, 1};
+  return firstTouch(w, pair, cores);
 }
 
 // How far the obstacle carries what it has stopped during the rest of the step. One that is stopped itself
@@ -87,7 +113,7 @@ void stopAtImpacts(World::Impl& w) {
   for (const Pair& pair : w.pairs) {
     if ((!fast(pair.body_a) && !fast(pair.body_b)) || !w.solves(pair)) continue;
     const float size = std::min(w.store.size[pair.body_a], w.store.size[pair.body_b]);
-    const Impact impact = firstTouch(w, pair, kStop * size);
+    const Impact impact = firstImpact(w, pair, kStop * size);
     const auto stop = [&](uint32_t body, uint32_t by) {
       const bool can_stop = fast(body) && isDynamic(w.store.states[body].motion_type);
       if (can_stop && impact.fraction < w.stops[body].fraction)

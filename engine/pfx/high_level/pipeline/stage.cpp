@@ -23,6 +23,7 @@ bool hasFreeComponents(const World::Impl& w) { return !w.free_components.empty()
 bool hasFreeBodies(const World::Impl& w) { return !w.free_bodies.empty(); }
 bool hasKeyframes(const World::Impl& w) { return w.moving.size() > w.active.size() || !w.keyframes.empty(); }
 bool hasSleepers(const World::Impl& w) { return w.def.sleeping && w.num_sleepers > 0 && hasPairs(w); }
+bool hasParticles(const World::Impl& w) { return !w.particle_store.empty(); }
 bool sleeps(const World::Impl& w) { return w.def.sleeping && !w.active.empty(); }
 
 constexpr std::array kSimple = {
@@ -40,6 +41,7 @@ constexpr std::array kSimple = {
     Stage{"break joints", hasJoints, stage::breakJoints},
     Stage{"key frames", hasKeyframes, stage::followKeyframes},
     Stage{"continuous", hasPairs, stage::stopAtImpacts},
+    Stage{"particles", hasParticles, stage::moveParticles},
 };
 
 constexpr std::array kStable = {
@@ -59,6 +61,7 @@ constexpr std::array kStable = {
     Stage{"key frames", hasKeyframes, stage::followKeyframes},
     Stage{"continuous", hasPairs, stage::stopAtImpacts},
     Stage{"store impulses", hasContacts, stage::storeImpulses},
+    Stage{"particles", hasParticles, stage::moveParticles},
     Stage{"sleep", sleeps, stage::putToSleep},
 };
 

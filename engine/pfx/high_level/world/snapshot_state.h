@@ -99,7 +99,7 @@ void ioPairs(A& a, std::vector<Pair>& pairs, ContactStore& contacts) {
       contacts.assign(p.contact_id, manifolds);
     }
     Contact& c = contacts[p.contact_id];
-    io(archive, c.found), io(archive, c.reported_touching), io(archive, c.cache), io(archive, c.relative);
+    io(archive, c.rolls), io(archive, c.reported_touching), io(archive, c.cache), io(archive, c.relative);
   });
 }
 

@@ -32,6 +32,16 @@ void World::Impl::refreshActive() {
   active_changed = false;
 }
 
+void World::Impl::forgetPairs(uint32_t body) {
+  for (auto* list : {&pairs, &sleeping_pairs}) {
+    std::erase_if(*list, [&](const Pair& p) {
+      if (p.body_a != body && p.body_b != body) return false;
+      contacts.remove(p.contact_id);
+      return true;
+    });
+  }
+}
+
 // Islands are made when somebody asks: for sleep, or to look at.
 void World::Impl::linkIslands() {
   refreshActive();
@@ -83,21 +93,22 @@ void World::removeBody(BodyId id) {
   if (!isValid(id)) return;
   impl_->wake(id.index);
   impl_->wakeNeighbours(id.index);
-  for (auto* list : {&impl_->pairs, &impl_->sleeping_pairs}) {
-    std::erase_if(*list, [&](const Pair& p) {
-      if (p.body_a != id.index && p.body_b != id.index) return false;
-      impl_->contacts.remove(p.contact_id);
-      return true;
-    });
-  }
+  impl_->forgetPairs(id.index);
   for (uint32_t i = 0; i < impl_->joint_store.links.size(); ++i) {
     const JointLink& link = impl_->joint_store.links[i];
     if (link.exists && (link.body_a == id.index || link.body_b == id.index)) removeJoint(jointId(i));
   }
+  impl_->particle_store.forgetBody(id.index);
   impl_->store.remove(id.index);
   impl_->active_changed = true;
   impl_->tree_is_current = false;
   impl_->changed_bodies.push_back(id.index);
+}
+
+void World::setShapes(BodyId id, std::span<const Shape> shapes) {
+  state(id);
+  impl_->store.setShapes(id.index, shapes);
+  impl_->forgetPairs(id.index);
 }
 
 bool World::isValid(BodyId id) const { return id && impl_->store.isValid(id); }
@@ -262,6 +273,6 @@ std::vector<std::string_view> World::stages() const {
   return names;
 }
 
-uint64_t World::stateHash() const { return hashStates(impl_->store.states); }
+uint64_t World::stateHash() const { return impl_->particle_store.hash(hashStates(impl_->store.states)); }
 
 }  // namespace pfx

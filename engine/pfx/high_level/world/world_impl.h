@@ -8,6 +8,7 @@
 #include "pfx/high_level/pipeline/stage.h"
 #include "pfx/high_level/world/body_store.h"
 #include "pfx/high_level/world/joint_store.h"
+#include "pfx/high_level/world/particle_store.h"
 #include "pfx/high_level/world/world.h"
 #include "pfx/low_level/broadphase/decompose.h"
 #include "pfx/low_level/broadphase/sweep.h"
@@ -116,6 +117,8 @@ struct World::Impl {
   std::deque<NewtonTask> newton_islands;
   uint32_t num_newton_islands = 0;  // in use
 
+  ParticleStore particle_store;
+
   std::vector<StageTime> times;
 
   bool solves(const Pair& pair) const;
@@ -125,6 +128,7 @@ struct World::Impl {
   QueryScene queryScene();             // for queries about the bodies as they are now
   void needSolverBody(uint32_t body);  // the solver will work on it
   void listIslandPairs();
+  void forgetPairs(uint32_t body);     // with their contacts; those that last are found anew
   void wake(uint32_t body);            // and its whole island
   void wakeNeighbours(uint32_t body);  // everything that it touches
   void revivePairs();

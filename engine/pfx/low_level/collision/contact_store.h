@@ -19,7 +19,7 @@ struct Contact {
   uint32_t first = 0;          // manifold in the pool
   uint16_t count = 0;          // manifolds in use
   uint16_t capacity_log2 = 0;  // of the block, plus one; 0: no block
-  bool found = false;          // the narrow phase has run at least once
+  bool rolls = false;          // a round surface touches; its points follow every motion
   bool reported_touching = false;
   PairCache cache;     // separating axis and feature hints of the narrow phase
   Transform relative;  // B seen from A when the manifolds were found
@@ -49,6 +49,9 @@ class ContactStore {
   // The same where the block is large enough already: touches nothing but this contact, and may run in
   // parallel.
   bool assignInPlace(uint32_t id, std::span<const ContactManifold> manifolds);
+
+  // Keeps the first `count` manifolds of a contact.
+  void shorten(uint32_t id, uint16_t count) { contacts_[id].count = count; }
 
  private:
   static constexpr int kSizeClasses = 16;

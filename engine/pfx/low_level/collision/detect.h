@@ -2,7 +2,7 @@
 //
 // A pair that has hardly moved since its manifold was found keeps it and only has its distances measured
 // again. This loses nothing: a point left out was farther away than the margin, and the motion allowed is
-// half of that.
+// half of that. Where a round surface touches it has to have moved hardly at all.
 #pragma once
 
 #include <span>
@@ -13,6 +13,7 @@
 #include "pfx/base_level/rigid_body/rigid_state.h"
 #include "pfx/base_level/shape/collidable.h"
 #include "pfx/low_level/collision/contact_store.h"
+#include "pfx/low_level/collision/seams.h"
 #include "pfx/low_level/task/task_manager.h"
 
 namespace pfx {
@@ -37,6 +38,9 @@ class CollisionDetector {
 
   uint32_t numRecycled() const { return num_recycled_; }  // pairs of the last call that kept their manifolds
 
+  // Pairs of the last call of which one body has a mesh, sorted by the other body.
+  std::span<const MeshPair> meshPairs() const { return mesh_pairs_; }
+
  private:
   // Manifolds that did not fit the block of their contact.
   struct Pending {
@@ -47,15 +51,18 @@ class CollisionDetector {
     std::vector<ContactManifold> found;    // of the pair at hand
     std::vector<ContactManifold> storage;  // of pending pairs
     std::vector<Pending> pending;
+    std::vector<MeshPair> mesh_pairs;
     uint32_t recycled = 0;
   };
 
   void detectPair(const DetectInput& input, uint32_t pair, ContactStore& contacts, Scratch& scratch) const;
+  static void noteMesh(const DetectInput& input, uint32_t pair, bool leans, Scratch& scratch);
   void prepareScratch(uint32_t num_workers);
   void assignPending(const DetectInput& input, ContactStore& contacts);
 
   std::vector<Scratch> scratch_;                      // by worker
   std::vector<std::pair<uint32_t, uint32_t>> order_;  // (pair, worker) of what is pending
+  std::vector<MeshPair> mesh_pairs_;                  // of the last call
   uint32_t num_recycled_ = 0;
 };
 

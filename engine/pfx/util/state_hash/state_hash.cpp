@@ -19,6 +19,6 @@ uint64_t hashStates(std::span<const RigidState> states) {
   return hash;
 }
 
-uint64_t hashBytes(std::span<const std::byte> bytes) { return XXH64(bytes.data(), bytes.size(), 0); }
+uint64_t hashBytes(std::span<const std::byte> bytes, uint64_t seed) { return XXH64(bytes.data(), bytes.size(), seed); }
 
 }  // namespace pfx

@@ -12,7 +12,7 @@ namespace pfx {
 // 64-bit hash of position, orientation and both velocities of every body, in order, bit by bit.
 uint64_t hashStates(std::span<const RigidState> states);
 
-// 64-bit hash of bytes (XXH64), the same on every platform.
-uint64_t hashBytes(std::span<const std::byte> bytes);
+// 64-bit hash of bytes (XXH64), the same on every platform. `seed`: hash of what comes before them.
+uint64_t hashBytes(std::span<const std::byte> bytes, uint64_t seed = 0);
 
 }  // namespace pfx
