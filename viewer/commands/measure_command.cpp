@@ -17,7 +17,16 @@ namespace {
 
 using nlohmann::ordered_json;
 
-constexpr const char* kSolver = "soft_step";  // sub-stepped soft constraints
+// Names of contact solvers: sub-stepped soft constraints, and Newton's method island by island.
+constexpr std::pair<const char*, pfx::ContactSolver> kSolvers[] = {{"auto", pfx::ContactSolver::Auto},
+                                                                   {"soft_step", pfx::ContactSolver::Soft},
+                                                                   {"newton", pfx::ContactSolver::Newton}};
+
+const char* nameOf(pfx::ContactSolver solver) {
+  return std::find_if(std::begin(kSolvers), std::end(kSolvers),
+                      [&](const auto& s) { return s.second == solver; })
+      ->first;
+}
 
 struct Options {
   std::string target, solver = "auto";
@@ -104,7 +113,7 @@ ordered_json describe(const SceneRun& run, const Measured& m, const Options& opt
                        {"steps", options.steps},
                        {"dt", options.dt},
                        {"substeps", run.world().def().substeps},
-                       {"solver", kSolver},
+                       {"solver", nameOf(run.world().def().contact_solver)},
                        {"threads", options.threads},
                        {"state_hash", hexText(run.stateHash())},
                        {"final", figuresJson(m.final)},
@@ -142,18 +151,28 @@ void printText(const ordered_json& json) {
 void check(const Options& o) {
   if (!(o.dt > 0.0f) || !(o.dt <= 1.0f))
     throw InputError("--dt must be a time in seconds, above 0 and at most 1");
-  if (o.solver != "auto" && o.solver != kSolver)
-    throw InputError("unknown solver \"" + o.solver + "\"; known: auto, " + kSolver);
   if (o.iterations)
-    throw InputError(std::string("--iterations: solver ") + kSolver +
-                     " does not iterate; raise --substeps instead");
+    throw InputError("--iterations: these solvers choose their own; raise --substeps instead");
+}
+
+pfx::ContactSolver solverNamed(const std::string& name) {
+  std::string known;
+  for (const auto& [solver, value] : kSolvers) {
+    if (name == solver) return value;
+    known += (known.empty() ? "" : ", ") + std::string(solver);
+  }
+  throw InputError("unknown solver \"" + name + "\"; known: " + known);
 }
 
 int measure(const Options& options) {
   check(options);
+  const pfx::ContactSolver solver = solverNamed(options.solver);
   auto results = ordered_json::array();
   for (const SceneSpec& spec : findTarget(allScenes(), options.target)) {
-    SceneRun run(spec, {.dt = options.dt, .substeps = options.substeps, .threads = options.threads});
+    SceneRun run(spec, {.dt = options.dt,
+                        .substeps = options.substeps,
+                        .contact_solver = solver,
+                        .threads = options.threads});
     const Measured m = runSteps(run, options);
     results.push_back(describe(run, m, options));
     if (!options.json) {
@@ -184,7 +203,7 @@ void addMeasureCommand(CLI::App& app, Action& action) {
   command->add_option("--substeps", options->substeps, "Solver sub-steps a step")->check(CLI::Range(1, 1000));
   command->add_option("--iterations", options->iterations, "Iterations of solvers that iterate")
       ->check(CLI::Range(1, 10000));
-  command->add_option("--solver", options->solver, "auto or soft_step")->capture_default_str();
+  command->add_option("--solver", options->solver, "auto, soft_step or newton")->capture_default_str();
   command->add_option("--threads", options->threads, "Threads; the result is the same for any number")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();
