@@ -42,6 +42,7 @@ void gatherConstraints(World::Impl& w) {
                                .restitution = 0.5f * (ba.restitution + bb.restitution)});
     }
   }
+  modifyContacts(w);
   for (const ContactConstraint& c : w.constraints) w.needSolverBody(c.solver_a), w.needSolverBody(c.solver_b);
   w.free_bodies.clear();
   for (uint32_t i : w.active)

@@ -25,6 +25,13 @@ void breakJoints(World::Impl& world);        // joints beyond their strength are
 void rememberPoses(World::Impl& world);      // where everything that moves starts from
 void stopAtImpacts(World::Impl& world);      // what moves far goes through nothing
 void putToSleep(World::Impl& world);         // islands at rest fall asleep
+void noteApproaches(World::Impl& world);     // how fast bodies come together that do not touch yet
+void reportEvents(World::Impl& world);       // touches that began and ended, bodies that fell asleep and woke
+void keepModifiedImpulses(World::Impl& world);  // of changed manifolds, for the next step
+
+// Parts of other stages.
+void dropApart(World::Impl& world, std::vector<Pair>& pairs);  // pairs that may not collide; ascending
+void modifyContacts(World::Impl& world);                       // lets the application change constraints
 
 // Fills in the bodies of a component for a step.
 void beginComponent(World::Impl& world, JointComponent& component, const DirectStepParams& params);

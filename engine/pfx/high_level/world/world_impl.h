@@ -6,7 +6,9 @@
 #include "pfx/base_level/shape/convex_mesh.h"
 #include "pfx/base_level/shape/large_mesh.h"
 #include "pfx/high_level/pipeline/stage.h"
+#include "pfx/high_level/world/apart_pairs.h"
 #include "pfx/high_level/world/body_store.h"
+#include "pfx/high_level/world/event_store.h"
 #include "pfx/high_level/world/joint_store.h"
 #include "pfx/high_level/world/world.h"
 #include "pfx/low_level/broadphase/decompose.h"
@@ -31,6 +33,12 @@ struct Stop {
   float fraction = 1.0f;      // of the step; 1: it is not
   Vec3 point = Vec3::Zero();  // m, world, of the impact
   uint32_t by = 0;            // the body that it hits
+};
+
+// A manifold that the application changed, which the solver gets in place of the original.
+struct ModifiedContact {
+  ContactManifold manifold;
+  ContactManifold* original;
 };
 
 struct World::Impl {
@@ -101,11 +109,22 @@ struct World::Impl {
   std::vector<uint8_t> solver_dynamic;
   SoftStep soft_step;
 
+  // What the application says about contacts, and what it is told
+  ApartPairs apart;
+  PairFilter pair_filter;
+  ContactModifier contact_modifier;
+  std::vector<ModifiedContact> modified;
+  EventStore events;
+
   std::vector<StageTime> times;
+  uint64_t stages_run = 0;  // a bit for each of the pipeline, since the world was made
+  WorldCounts counts;
+  bool counts_are_current = false;
 
   bool solves(const Pair& pair) const;
   void refreshActive();
   void linkIslands();
+  void hasChanged(uint32_t body);      // from outside: it stands elsewhere, is new, or is gone
   QueryScene queryScene();             // for queries about the bodies as they are now
   void needSolverBody(uint32_t body);  // the solver will work on it
   void listIslandPairs();
