@@ -5,8 +5,19 @@
 namespace samples {
 namespace {
 
-constexpr std::array kSamples = {simpleScenes,  stableScenes, sleepScenes,     motionTypeScenes,
-                                 raycastScenes, jointScenes,  serializeScenes, xmlImportScenes};
+// In the order of the browser.
+constexpr std::array kSamples = {
+    simpleScenes,
+    stableScenes,
+    sleepScenes,
+    motionTypeScenes,
+    raycastScenes,
+    jointScenes,
+    serializeScenes,
+    xmlImportScenes,
+    accuracyScenes,
+    benchmarkScenes,
+};
 
 std::vector<SceneEntry> allScenes() {
   std::vector<SceneEntry> all;

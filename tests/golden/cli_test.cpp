@@ -73,6 +73,10 @@ INSTANTIATE_TEST_SUITE_P(
         Mistake{"verify --shard 4/3", "--shard \"4/3\""},
         Mistake{"verify no_such_sample", "unknown sample or scene \"no_such_sample\""},
         Mistake{"inspect 2_stable --frame 0", "name one, for example 2_stable/"},
+        Mistake{"inspect 2_stable/tower --frame 0 --mesh ground", "has no large mesh; this scene has none"},
+        Mistake{"inspect 2_stable/tower --frame 0 --mesh nobody", "no body has this name or index"},
+        Mistake{"inspect 2_stable/landscape --frame 0 --mesh landscape --triangle 128", "has triangles 0 .. 127"},
+        Mistake{"inspect 2_stable/landscape --frame 0 --triangle 1", "--triangle needs --mesh BODY"},
         Mistake{"replay /nonexistent/r.rec", "/nonexistent/r.rec: cannot read"},
         Mistake{"replay /etc/passwd", "/etc/passwd: is not a recording"},
         Mistake{"record 2_stable --steps 5 --out /tmp/x", "name one, for example 2_stable/"},
@@ -129,6 +133,34 @@ TEST(CommandLine, InspectJsonHasItsKeys) {
   EXPECT_TRUE(contact.contains("body_a") && contact.contains("body_b"));
   for (const char* key : {"position", "normal", "distance", "impulse"})
     EXPECT_TRUE(contact.at("points")[0].contains(key)) << key;
+}
+
+TEST(CommandLine, InspectTellsWhichTriangleABallRestsOnAndAllAboutIt) {
+  const std::string call = "inspect 2_stable/landscape --frame 300 --json --mesh landscape";
+  const json mesh = json::parse(runVitrine(call).out).at("mesh");
+  EXPECT_EQ(mesh.at("triangles"), 128);
+  int facet = -1;
+  for (const json& contact : mesh.at("contacts"))
+    if (contact.at("body").at("name") == "sphere") facet = contact.at("triangle").get<int>();
+  ASSERT_GE(facet, 0);
+  const json triangle = json::parse(runVitrine(call + " --triangle " + std::to_string(facet)).out).at("triangle");
+  EXPECT_EQ(triangle.at("triangle"), facet);
+  for (const char* key : {"island", "normal", "thickness", "user_data", "quantization_error", "bvh_path"})
+    EXPECT_TRUE(triangle.contains(key)) << key;
+  EXPECT_EQ(triangle.at("vertices").size(), 3u);
+  EXPECT_EQ(triangle.at("edges").size(), 3u);
+  ASSERT_FALSE(triangle.at("contacts").empty());
+  EXPECT_EQ(triangle.at("contacts")[0].at("body").at("name"), "sphere");
+}
+
+TEST(CommandLine, InspectTellsErrorsAndLoadsOfJoints) {
+  const json joints = json::parse(runVitrine("inspect 6_joint/basic_joints --frame 30 --joints --json").out).at("joints");
+  ASSERT_EQ(joints.size(), 6u);
+  for (const json& joint : joints) {
+    for (const char* key : {"kind", "body_a", "body_b", "error", "error_angle", "force", "torque"})
+      EXPECT_TRUE(joint.contains(key)) << key;
+    EXPECT_EQ(joint.at("axes").size(), joint.at("kind") == "swing twist" ? 5u : 6u) << joint.at("kind");
+  }
 }
 
 TEST(CommandLine, CompareTellsEqualFromDifferent) {

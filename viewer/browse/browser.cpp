@@ -4,6 +4,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <thread>
+#include <utility>
 
 #include "viewer/browse/ui_style.h"
 #include "viewer/image/png.h"
@@ -16,6 +17,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
+constexpr Color kSelectedColor = 0xffd9480fu, kHoverColor = 0xff7a5a3au;
 constexpr double kFrameTime = 1.0 / 60.0;  // s, of a picture; faster is a waste of the processor
 
 std::unique_ptr<Window> open(const BrowseSettings& settings, const std::string& target) {
@@ -71,7 +73,7 @@ void Browser::load(const std::string& target) {
   }
   settings_.target = target;
   camera_ = {.pose = spec->camera, .orthographic = false};
-  selected_ = 0;
+  selected_ = {};
   follow_ = false;
   view_ = std::make_unique<WorldView>(list_);
   session_.paused = false;
@@ -87,17 +89,21 @@ void Browser::restart() {
 }
 
 std::string Browser::title() const {
+  const std::string selected = titleOf(session_.world(), selected_);
   return session_.spec().target() + " - step " + std::to_string(session_.step()) +
-         (session_.paused ? " - paused" : "") + " - Vitrine";
+         (session_.paused ? " - paused" : "") + (selected.empty() ? "" : " - " + selected) + " - Vitrine";
 }
 
 void Browser::record() {
   list_.begin();
-  if (follow_ && pickKind(selected_) == PickKind::Body &&
-      pickIndex(selected_) < session_.world().states().size())
-    camera_.pose.target = session_.world().states()[pickIndex(selected_)].position;
+  selected_ = stillThere(session_.world(), selected_);
+  if (const pfx::Aabb box = boundsOf(session_.world(), selected_); follow_ && box.min.x() <= box.max.x())
+    camera_.pose.target = box.center();
   list_.camera = camera_.camera();
   view_->add(session_.world(), settings_.overlays);
+  if (selected_.kind == PickKind::Triangle)
+    view_->addTriangle(session_.world(), selected_.body.index, selected_.facet, kSelectedColor);
+  addHovered();
   ListCanvas canvas(list_);
   session_.scene().draw(session_.world(), canvas);
   if (const auto& grab = session_.grab; grab && session_.world().isValid(grab->body)) {
@@ -109,23 +115,58 @@ void Browser::record() {
   list_.end();
 }
 
+// The triangle of a large mesh under the mouse, with its numbers beside it.
+void Browser::addHovered() {
+  if (ImGui::GetIO().WantCaptureMouse || drag_ != DragMode::None || mouse_x_ < 0.0f) return;
+  const Ray ray = mouseRay(mouse_x_, mouse_y_);
+  const pfx::RayOutput hit = session_.world().castRay({.start = ray.origin, .direction = ray.direction});
+  if (!hit.hit || !meshOfBody(session_.world(), hit.body)) return;
+  view_->addTriangle(session_.world(), hit.body, hit.triangle, kHoverColor);
+  list_.add(Label{.position = pfx::Vec3(mouse_x_ + 16.0f, mouse_y_ + 14.0f, 0.0f),
+                  .text = "triangle " + std::to_string(hit.triangle) + ", island " + std::to_string(hit.island) +
+                          " of " + bodyTitle(session_.world(), hit.body),
+                  .on_screen = true});
+}
+
 FrameInput Browser::frameInput() const {
-  return {.width = width_, .height = height_, .ui = nullptr, .selected = selected_, .label_scale = 1.0f};
+  return {.width = width_,
+          .height = height_,
+          .ui = nullptr,
+          .selected = pickOf(session_.world(), selected_),
+          .label_scale = 1.0f};
+}
+
+void Browser::layOutSide(const PanelArea& area) {
+  SideState state{&settings_.overlays, &session_.settings, selected_};
+  if (selected_.kind == PickKind::Triangle) {
+    const pfx::LargeMesh& mesh = *meshOfBody(session_.world(), selected_.body.index)->mesh;
+    const uint32_t island = pfx::islandOf(mesh, selected_.facet);
+    state.marked = view_->markOf({selected_.body.index, island, selected_.facet - mesh.islands[island].first_facet});
+  }
+  state.show = std::exchange(show_tab_, SideTab::Same);
+  const SideEdit edit = sidePanel(area, session_, state);
+  if (edit.restart) restart();
+  if (edit.inspector.mark) view_->mark(session_.world(), edit.inspector.mark->triangle, edit.inspector.mark->what);
+  if (edit.inspector.selected) select(*edit.inspector.selected);
+  if (edit.inspector.command) execute(*edit.inspector.command);
+}
+
+void Browser::select(const Selection& selection) {
+  selected_ = selection;
+  if (selection.kind != PickKind::Nothing) show_tab_ = SideTab::Selection;
 }
 
 void Browser::layOutPanels() {
+  selected_ = stillThere(session_.world(), selected_);
   const float w = float(width_), h = float(height_), unit = ImGui::GetFontSize(), gap = 0.6f * unit;
   if (settings_.show_ui) {
-    const float bar = 2.7f * unit, left = 15.0f * unit, right = 21.0f * unit,
+    const float bar = 2.7f * unit, left = 15.0f * unit, right = 23.0f * unit,
                 drawer = settings_.show_costs ? 11.0f * unit : 0.0f;
     const float sides = h - bar - 3.0f * gap - (drawer > 0.0f ? drawer + gap : 0.0f);
     if (const auto target =
             sceneListPanel({gap, gap, left, sides}, scenes_, session_.spec().target(), list_state_))
       load(*target);
-    const SideEdit side = sidePanel({w - right - gap, gap, right, sides}, session_,
-                                    {&settings_.overlays, &session_.settings, selected_});
-    if (side.restart) restart();
-    if (side.selected) selected_ = *side.selected;
+    layOutSide({w - right - gap, gap, right, sides});
     const TransportEdit transport = transportPanel({gap, h - bar - gap, w - 2.0f * gap, bar}, session_);
     if (transport.command) execute(*transport.command);
     if (transport.speed) session_.speed = *transport.speed;

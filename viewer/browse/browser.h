@@ -35,6 +35,7 @@ class Browser {
   // The loop.
   void drawFrame(const UiInput::Frame& input, float dt);
   void layOutPanels();
+  void layOutSide(const PanelArea& area);
   void record();
   void load(const std::string& target);
   void restart();
@@ -54,6 +55,9 @@ class Browser {
   void frameSelection();
   void throwBall();
   PickHit pickAt(float x, float y);
+  Ray mouseRay(float x, float y) const;
+  void select(const Selection& selection);
+  void addHovered();
   FrameInput frameInput() const;
 
   enum class DragMode { None, Orbit, Pan, Pull };
@@ -71,7 +75,8 @@ class Browser {
 
   CameraControl camera_;
   SceneListState list_state_;
-  uint32_t selected_ = 0;  // pick id
+  Selection selected_;
+  SideTab show_tab_ = SideTab::Same;  // to bring to the front in the next frame
   bool follow_ = false, help_ = false, quit_ = false, screenshot_ = false;
   DragMode drag_ = DragMode::None;
   float drag_start_x_ = 0.0f, drag_start_y_ = 0.0f, mouse_x_ = 0.0f, mouse_y_ = 0.0f;

@@ -13,7 +13,7 @@ constexpr float kClickRadius = 4.0f;  // px, the mouse may move so far between p
 constexpr float kFlySpeed = 0.9f;     // distances to the target a second
 constexpr float kThrowSpeed = 25.0f;  // m/s
 
-pfx::Aabb boundsOf(const pfx::World& world, uint32_t body) {
+pfx::Aabb bodyBounds(const pfx::World& world, uint32_t body) {
   const pfx::Collidable& c = world.collidables()[body];
   return pfx::transformedAabb(world.states()[body].pose(), c.center, c.half_extent);
 }
@@ -23,8 +23,8 @@ pfx::Aabb sceneBounds(const pfx::World& world) {
   pfx::Aabb moving, all;
   for (uint32_t i = 0; i < world.states().size(); ++i) {
     if (!world.bodyId(i)) continue;
-    all.extend(boundsOf(world, i));
-    if (world.states()[i].motion_type != pfx::MotionType::Fixed) moving.extend(boundsOf(world, i));
+    all.extend(bodyBounds(world, i));
+    if (world.states()[i].motion_type != pfx::MotionType::Fixed) moving.extend(bodyBounds(world, i));
   }
   return moving.min.x() <= moving.max.x() ? moving : all;
 }
@@ -88,7 +88,7 @@ void Browser::beginDrag(const UiInput::Frame& input) {
   const PickHit hit = pickAt(mouse_x_, mouse_y_);
   if (pickKind(hit.id) != PickKind::Body) return;
   const uint32_t body = pickIndex(hit.id);
-  selected_ = hit.id;
+  select(selectBody(session_.world(), body));
   if (!pfx::isDynamic(session_.world().states()[body].motion_type)) return;
   drag_ = DragMode::Pull;
   const Camera camera = camera_.camera();
@@ -100,7 +100,14 @@ void Browser::beginDrag(const UiInput::Frame& input) {
 
 void Browser::endDrag(const UiInput::Frame& input) {
   const bool clicked = std::hypot(mouse_x_ - drag_start_x_, mouse_y_ - drag_start_y_) < kClickRadius;
-  if (drag_ == DragMode::Orbit && clicked && !input.control) selected_ = pickAt(mouse_x_, mouse_y_).id;
+  if (drag_ == DragMode::Orbit && clicked && !input.control)
+    select(selectPicked(session_.world(), pickAt(mouse_x_, mouse_y_).id, mouseRay(mouse_x_, mouse_y_)));
+}
+
+Ray Browser::mouseRay(float x, float y) const {
+  const Camera camera = camera_.camera();
+  const PickRay ray = pickRay(camera, x, y, width_, height_);
+  return {ray.origin, camera.far_m * ray.direction};
 }
 
 PickHit Browser::pickAt(float x, float y) { return renderer_->pick(frameInput(), list_, int(x), int(y)); }
@@ -193,7 +200,7 @@ bool Browser::executeView(BrowseCommand command) {
       say(follow_ ? "the view follows the selection" : "the view stays");
       return true;
     case BrowseCommand::Deselect:
-      selected_ = 0;
+      selected_ = {};
       follow_ = help_ = false;
       return true;
     default:
@@ -236,10 +243,8 @@ void Browser::changeScene(int by) {
 
 void Browser::frameSelection() {
   const pfx::World& world = session_.world();
-  const uint32_t body = pickIndex(selected_);
-  const bool one =
-      pickKind(selected_) == PickKind::Body && body < world.states().size() && world.bodyId(body);
-  camera_.frame(one ? boundsOf(world, body) : sceneBounds(world));
+  const pfx::Aabb box = boundsOf(world, selected_);
+  camera_.frame(box.min.x() <= box.max.x() ? box : sceneBounds(world));
 }
 
 void Browser::throwBall() {

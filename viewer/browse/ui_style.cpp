@@ -55,6 +55,11 @@ void setUiStyle(float scale) {
   c[ImGuiCol_TableHeaderBg] = ImVec4(0.90f, 0.90f, 0.89f, 1.0f);
   c[ImGuiCol_TableRowBgAlt] = ImVec4(0.30f, 0.30f, 0.30f, 0.05f);
   c[ImGuiCol_PlotLines] = ImVec4(0.30f, 0.45f, 0.62f, 1.0f);
+  c[ImGuiCol_Tab] = ImVec4(0.89f, 0.89f, 0.88f, 1.0f);
+  c[ImGuiCol_TabHovered] = c[ImGuiCol_ButtonHovered];
+  c[ImGuiCol_TabActive] = ImVec4(0.93f, 0.75f, 0.58f, 1.0f);
+  c[ImGuiCol_FrameBgHovered] = ImVec4(0.93f, 0.86f, 0.80f, 1.0f);
+  c[ImGuiCol_FrameBgActive] = ImVec4(0.93f, 0.82f, 0.72f, 1.0f);
   style.ScaleAllSizes(scale);
   addFont(*ImGui::GetIO().Fonts, scale);
   ImGui::GetIO().Fonts->Build();

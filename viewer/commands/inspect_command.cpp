@@ -1,165 +1,202 @@
 // vitrine inspect: the facts of the inspector panels as text or JSON.
 #include <algorithm>
+#include <charconv>
 #include <cstdio>
-#include <nlohmann/json.hpp>
 
 #include "viewer/commands/commands.h"
 #include "viewer/input_error.h"
+#include "viewer/inspect/island_facts.h"
+#include "viewer/inspect/mesh_facts.h"
 #include "viewer/run/scene_run.h"
-#include "viewer/run/sleep_facts.h"
 
 namespace viewer {
 namespace {
 
-using nlohmann::ordered_json;
-
 struct Options {
-  std::string target;
+  std::string target, body, mesh;
   int frame = 0;
-  bool islands = false, contacts = false, json = false;
+  std::optional<uint32_t> triangle;
+  bool islands = false, contacts = false, joints = false, json = false;
 };
 
-ordered_json vectorJson(const pfx::Vec3& v) { return {v.x(), v.y(), v.z()}; }
+std::string refText(const Json& ref) { return valueText({"", ref}); }
 
-ordered_json bodyJson(const pfx::World& world, uint32_t index) {
-  return {{"index", index}, {"name", world.name(index)}};
+// A body by its name or its index.
+uint32_t findBody(const pfx::World& world, const char* option, const std::string& text) {
+  const auto exists = [&](uint32_t i) { return i < world.states().size() && world.bodyId(i); };
+  for (uint32_t i = 0; i < world.states().size(); ++i)
+    if (exists(i) && world.name(i) == text) return i;
+  uint32_t index = 0;
+  const char* end = text.data() + text.size();
+  if (const auto [at, error] = std::from_chars(text.data(), end, index); error == std::errc() && at == end)
+    if (exists(index)) return index;
+  throw InputError(std::string(option) + " \"" + text + "\": no body has this name or index");
 }
 
-ordered_json islandsJson(const pfx::World& world) {
-  auto islands = ordered_json::array();
-  for (uint32_t i = 0; i < world.numIslands(); ++i) {
-    const pfx::IslandView view = world.island(i);
-    auto bodies = ordered_json::array();
-    for (uint32_t body : view.bodies) bodies.push_back(bodyJson(world, body));
-    const SleepFacts sleep = explainSleep(world, i);
-    ordered_json fastest = bodyJson(world, sleep.fastest);
-    fastest["linear_speed"] = sleep.linear_speed;
-    fastest["angular_speed"] = sleep.angular_speed;
-    islands.push_back({{"id", i},
-                       {"bodies", std::move(bodies)},
-                       {"contacts", view.contacts.size()},
-                       {"joints", view.joints},
-                       {"asleep", view.asleep},
-                       {"sleep_timer", view.sleep_timer},
-                       {"why", sleep.why},
-                       {"fastest", std::move(fastest)}});
-  }
-  return islands;
+std::string meshBodies(const pfx::World& world) {
+  std::string names;
+  for (uint32_t i = 0; i < world.states().size(); ++i)
+    if (meshOfBody(world, i)) names += (names.empty() ? "" : ", ") + bodyTitle(world, i);
+  return names.empty() ? "this scene has none" : "this scene has: " + names;
 }
 
-// The points of a pair: positions on body A in the world, impulses of the last step along the normal.
-ordered_json pointsJson(const pfx::World& world, const pfx::Pair& pair) {
-  auto points = ordered_json::array();
-  const pfx::Transform pose = world.states()[pair.body_a].pose();
-  for (const pfx::ContactManifold& m : world.manifolds(pair))
-    for (int k = 0; k < m.num_points; ++k) {
-      const pfx::ContactPoint& p = m.points[size_t(k)];
-      points.push_back({{"position", vectorJson(pose.apply(p.local_a))},
-                        {"normal", vectorJson(m.normal)},
-                        {"distance", p.distance},
-                        {"impulse", p.normal_impulse},
-                        {"friction_impulse", vectorJson(p.friction_impulse)},
-                        {"feature", p.feature}});
-    }
-  return points;
-}
+// What was asked for: a sheet for each part, under the key of the JSON.
+struct Report {
+  Json islands, contacts;
+  std::optional<FactSheet> body, mesh, triangle;
+  FactList joints{"joints", {}};
+};
 
-ordered_json contactsJson(const pfx::World& world) {
-  auto contacts = ordered_json::array();
+Json contactsJson(const pfx::World& world) {
+  Json contacts = Json::array();
   for (const pfx::Pair& pair : world.contactPairs()) {
-    ordered_json points = pointsJson(world, pair);
-    if (points.empty()) continue;
-    contacts.push_back({{"body_a", bodyJson(world, pair.body_a)},
-                        {"body_b", bodyJson(world, pair.body_b)},
-                        {"points", std::move(points)}});
+    Json contact = toJson(contactFacts(world, pair));
+    if (!contact["points"].empty()) contacts.push_back(std::move(contact));
   }
   return contacts;
 }
 
-ordered_json inspectScene(const SceneSpec& spec, const Options& options) {
-  SceneRun run(spec);
-  run.stepTo(uint64_t(options.frame));
-  const pfx::WorldCounts counts = run.world().counts();
-  ordered_json json = {{"target", spec.target()},
-                       {"frame", options.frame},
-                       {"counts",
-                        {{"bodies", counts.bodies},
-                         {"awake", counts.awake},
-                         {"pairs", counts.pairs},
-                         {"touching_pairs", counts.touching_pairs},
-                         {"contact_points", counts.contact_points},
-                         {"islands", counts.islands},
-                         {"joints", counts.joints}}}};
-  if (options.islands) json["islands"] = islandsJson(run.world());
-  if (options.contacts) json["contacts"] = contactsJson(run.world());
-  return json;
+Report report(const pfx::World& world, const Options& o) {
+  Report r;
+  if (o.islands) {
+    r.islands = Json::array();
+    for (uint32_t i = 0; i < world.numIslands(); ++i) r.islands.push_back(islandJson(world, i));
+  }
+  if (o.contacts) r.contacts = contactsJson(world);
+  if (o.joints)
+    for (uint32_t i = 0; i < world.jointLinks().size(); ++i)
+      if (world.jointLinks()[i].exists) r.joints.items.push_back(jointFacts(world, i));
+  if (!o.body.empty()) r.body = bodyFacts(world, findBody(world, "--body", o.body));
+  if (o.mesh.empty()) return r;
+  const uint32_t body = findBody(world, "--mesh", o.mesh);
+  const auto placed = meshOfBody(world, body);
+  if (!placed) throw InputError("--mesh \"" + o.mesh + "\": this body has no large mesh; " + meshBodies(world));
+  r.mesh = meshFacts(world, body);
+  if (!o.triangle) return r;
+  if (*o.triangle >= placed->mesh->numFacets())
+    throw InputError("--triangle " + std::to_string(*o.triangle) + ": the mesh has triangles 0 .. " +
+                     std::to_string(placed->mesh->numFacets() - 1));
+  r.triangle = triangleFacts(world, body, *o.triangle);
+  return r;
 }
 
-std::string nameOf(const ordered_json& body) {
-  const auto name = body["name"].get<std::string>();
-  return (name.empty() ? "body" : name) + " #" + std::to_string(body["index"].get<uint32_t>());
+Json countsJson(const pfx::WorldCounts& c) {
+  return {{"bodies", c.bodies},
+          {"awake", c.awake},
+          {"pairs", c.pairs},
+          {"touching_pairs", c.touching_pairs},
+          {"contact_points", c.contact_points},
+          {"islands", c.islands},
+          {"joints", c.joints}};
+}
+
+void printJson(const SceneRun& run, const Options& o, const Report& r) {
+  Json json = {{"target", run.spec().target()}, {"frame", o.frame}, {"counts", countsJson(run.world().counts())}};
+  if (o.islands) json["islands"] = r.islands;
+  if (o.contacts) json["contacts"] = r.contacts;
+  if (o.joints) {
+    json["joints"] = Json::array();
+    for (const FactSheet& joint : r.joints.items) json["joints"].push_back(toJson(joint));
+  }
+  if (r.body) json["body"] = toJson(*r.body);
+  if (r.mesh) json["mesh"] = toJson(*r.mesh);
+  if (r.triangle) json["triangle"] = toJson(*r.triangle);
+  std::puts(json.dump(2).c_str());
 }
 
 // The first few by name; --json has all.
-std::string memberList(const ordered_json& bodies) {
+std::string memberList(const Json& bodies) {
   constexpr size_t kShown = 8;
   std::string members;
-  for (size_t i = 0; i < std::min(kShown, bodies.size()); ++i)
-    members += (i > 0 ? ", " : "") + nameOf(bodies[i]);
+  for (size_t i = 0; i < std::min(kShown, bodies.size()); ++i) members += (i > 0 ? ", " : "") + refText(bodies[i]);
   if (bodies.size() > kShown) members += " and " + std::to_string(bodies.size() - kShown) + " more";
   return members;
 }
 
-void printText(const ordered_json& json) {
-  std::printf("%s, frame %d\n", json["target"].get<std::string>().c_str(), json["frame"].get<int>());
-  for (const auto& [key, value] : json["counts"].items())
-    std::printf("  %-16s%u\n", key.c_str(), value.get<uint32_t>());
-  if (json.contains("islands")) {
-    std::printf("\nisland  bodies  contacts  still for s  why, members\n");
-    for (const auto& island : json["islands"]) {
-      const std::string members = memberList(island["bodies"]);
-      std::printf("%6u  %6zu  %8zu  %11.2f  %s\n%39s%s\n", island["id"].get<uint32_t>(),
-                  island["bodies"].size(), island["contacts"].get<size_t>(),
-                  island["sleep_timer"].get<double>(), island["why"].get<std::string>().c_str(), "",
-                  members.c_str());
+void printIslands(const Json& islands) {
+  std::printf("\nisland  bodies  contacts  joints  still for s  why, members\n");
+  for (const Json& island : islands)
+    std::printf("%6u  %6zu  %8zu  %6u  %11.2f  %s\n%47s%s\n", island["id"].get<uint32_t>(), island["bodies"].size(),
+                island["contacts"].get<size_t>(), island["joints"].get<uint32_t>(),
+                island["sleep_timer"].get<double>(), island["why"].get<std::string>().c_str(), "",
+                memberList(island["bodies"]).c_str());
+  if (islands.empty()) std::printf("no island is awake\n");
+}
+
+void printContacts(const Json& contacts) {
+  std::printf("\ncontacts: position (m), normal from the first to the second, distance (m), impulse (N s)\n");
+  const auto number = [](const Json& list, size_t i) { return list[i].get<double>(); };
+  for (const Json& contact : contacts) {
+    std::printf("%s - %s\n", refText(contact["body_a"]).c_str(), refText(contact["body_b"]).c_str());
+    for (const Json& p : contact["points"]) {
+      const Json &x = p["position"], &n = p["normal"];
+      std::printf("  (%.4f, %.4f, %.4f)  (%.3f, %.3f, %.3f)  %+.6f  %.5f", number(x, 0), number(x, 1), number(x, 2),
+                  number(n, 0), number(n, 1), number(n, 2), p["distance"].get<double>(), p["impulse"].get<double>());
+      if (p.contains("triangle"))
+        std::printf("  triangle %u of %s", p["triangle"].get<uint32_t>(), refText(p["mesh"]).c_str());
+      std::printf("\n");
     }
   }
-  if (json.contains("contacts")) {
-    std::printf(
-        "\ncontacts: position (m), normal from the first to the second, distance (m), impulse (N s)\n");
-    for (const auto& contact : json["contacts"]) {
-      std::printf("%s - %s\n", nameOf(contact["body_a"]).c_str(), nameOf(contact["body_b"]).c_str());
-      for (const auto& p : contact["points"])
-        std::printf("  (%.4f, %.4f, %.4f)  (%.3f, %.3f, %.3f)  %+.6f  %.5f\n", p["position"][0].get<double>(),
-                    p["position"][1].get<double>(), p["position"][2].get<double>(),
-                    p["normal"][0].get<double>(), p["normal"][1].get<double>(), p["normal"][2].get<double>(),
-                    p["distance"].get<double>(), p["impulse"].get<double>());
-    }
+  if (contacts.empty()) std::printf("no bodies touch\n");
+}
+
+void printSheet(const char* title, const FactSheet& sheet) {
+  std::printf("\n%s\n%s", title, toText(sheet, 2).c_str());
+}
+
+// One line for each contact point on the mesh; --json and --triangle have all of it.
+void printMesh(FactSheet mesh) {
+  const std::vector<FactSheet> touches = std::move(mesh.lists.front().items);
+  mesh.lists.clear();
+  printSheet("mesh", mesh);
+  std::printf("\nwhat rests on it\n%s", touches.empty() ? "nothing\n" : "island  triangle  distance m  impulse N s  body\n");
+  for (const FactSheet& touch : touches) {
+    const Json t = toJson(touch);
+    std::printf("%6u  %8u  %+10.6f  %11.5f  %s\n", t["island"].get<uint32_t>(), t["triangle"].get<uint32_t>(),
+                t["distance"].get<double>(), t["impulse"].get<double>(), refText(t["body"]).c_str());
   }
 }
 
+void printText(const SceneRun& run, const Options& o, const Report& r) {
+  std::printf("%s, frame %d\n", run.spec().target().c_str(), o.frame);
+  const Json counts = countsJson(run.world().counts());
+  for (const auto& [key, value] : counts.items())
+    std::printf("  %-16s%u\n", key.c_str(), value.get<uint32_t>());
+  if (o.islands) printIslands(r.islands);
+  if (o.contacts) printContacts(r.contacts);
+  for (const FactSheet& joint : r.joints.items) printSheet("joint", joint);
+  if (r.body) printSheet("body", *r.body);
+  if (r.mesh && !r.triangle) printMesh(*r.mesh);
+  if (r.triangle) printSheet("triangle", *r.triangle);
+}
+
 int inspect(Options options) {
-  if (!options.islands && !options.contacts) options.islands = options.contacts = true;
-  const SceneSpec scene = findScene(allScenes(), options.target);
-  const ordered_json json = inspectScene(scene, options);
-  if (options.json)
-    std::puts(json.dump(2).c_str());
-  else
-    printText(json);
+  if (options.triangle && options.mesh.empty()) throw InputError("--triangle needs --mesh BODY");
+  const bool named = options.joints || !options.mesh.empty() || !options.body.empty();
+  if (!options.islands && !options.contacts && !named) options.islands = options.contacts = true;
+  SceneRun run(findScene(allScenes(), options.target));
+  run.stepTo(uint64_t(options.frame));
+  const Report facts = report(run.world(), options);
+  options.json ? printJson(run, options, facts) : printText(run, options, facts);
   return 0;
 }
 
 }  // namespace
 
 void addInspectCommand(CLI::App& app, Action& action) {
-  CLI::App* command = app.add_subcommand("inspect", "Islands and contacts of one frame, as text or JSON");
+  CLI::App* command = app.add_subcommand(
+      "inspect", "Islands, contacts, joints, bodies and triangles of one frame, as text or JSON (SI units)");
   const auto options = std::make_shared<Options>();
   command->add_option("TARGET", options->target, "SAMPLE/SCENE")->required();
   command->add_option("--frame", options->frame, "Steps to run first")
       ->check(CLI::Range(0, 1000000))
       ->required();
-  command->add_flag("--islands", options->islands, "Only islands (with --contacts: both)");
-  command->add_flag("--contacts", options->contacts, "Only contacts");
+  command->add_flag("--islands", options->islands, "Islands, and why each is awake");
+  command->add_flag("--contacts", options->contacts, "Contacts (without any choice: islands and contacts)");
+  command->add_flag("--joints", options->joints, "Joints, with errors, loads and all axes");
+  command->add_option("--body", options->body, "All about one body, by name or index");
+  command->add_option("--mesh", options->mesh, "The large mesh of a body, by name or index, and what rests on it");
+  command->add_option("--triangle", options->triangle, "All about one triangle of --mesh, by index");
   command->add_flag("--json", options->json, "Print JSON");
   command->callback([&action, options] { action = [options] { return inspect(*options); }; });
 }

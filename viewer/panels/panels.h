@@ -9,7 +9,7 @@
 
 #include "viewer/browse/commands.h"
 #include "viewer/browse/session.h"
-#include "viewer/draw_list/draw_list.h"
+#include "viewer/inspect/selection.h"
 #include "viewer/run/overlays.h"
 
 namespace viewer {
@@ -40,16 +40,34 @@ struct TransportEdit {
 };
 TransportEdit transportPanel(const PanelArea& area, const Session& session);
 
-// Counters, overlays, solver settings, and what is known of the selection. Returns whether the scene has to
-// be restarted for a setting to act, and what was selected.
+// What is drawn of one triangle of a large mesh.
+struct MeshMark {
+  pfx::MeshTriangleId triangle;
+  pfx::MeshDraw what;
+};
+
+// What the inspector asks for.
+struct InspectorEdit {
+  std::optional<Selection> selected;
+  std::optional<BrowseCommand> command;
+  std::optional<MeshMark> mark;
+};
+// All about the selection; `marked`: what is drawn of the selected triangle.
+InspectorEdit inspectorSection(const pfx::World& world, const Selection& selected, pfx::MeshDraw marked);
+std::optional<Selection> islandsSection(const pfx::World& world, const Selection& selected);
+
+// The panel on the right. Returns whether the scene has to be restarted for a setting to act.
+enum class SideTab { Same, Scene, Selection, Islands, Show };
 struct SideEdit {
   bool restart = false;
-  std::optional<uint32_t> selected;  // pick id
+  InspectorEdit inspector;
 };
 struct SideState {
   Overlays* overlays;
   RunSettings* settings;
-  uint32_t selected;  // pick id
+  Selection selected;
+  pfx::MeshDraw marked = pfx::MeshDraw::None;
+  SideTab show = SideTab::Same;  // the tab to bring to the front
 };
 SideEdit sidePanel(const PanelArea& area, const Session& session, const SideState& state);
 
@@ -57,8 +75,6 @@ SideEdit sidePanel(const PanelArea& area, const Session& session, const SideStat
 void countersSection(const Session& session);
 void overlaysSection(Overlays& overlays);
 bool solverSection(RunSettings& settings, const pfx::WorldDef& def);
-void bodySection(const pfx::World& world, uint32_t body);
-std::optional<uint32_t> islandSection(const pfx::World& world, uint32_t selected);
 
 // Table and plots of what the stages cost.
 void costsPanel(const PanelArea& area, const Session& session);

@@ -1,6 +1,11 @@
 // A world as solids and overlays, through the engine's debug rendering.
 #include "viewer/run/world_view.h"
 
+#include <array>
+#include <cmath>
+
+#include "viewer/inspect/mesh_facts.h"
+
 namespace viewer {
 namespace {
 
@@ -69,8 +74,48 @@ void WorldView::add(const pfx::World& world, const Overlays& overlays) {
   if (overlays.joints) addJoints(world);
   if (overlays.islands) addIslands(world);
   recorder_.pick = 0;
+  if (!marks_.empty()) {
+    debug_.scale = kNormalLength;
+    debug_.renderLargeMeshByFlag(states, world.collidables());
+  }
   if (overlays.world) debug_.renderWorld(world.def().center, world.def().extent);
   addBodyOverlays(world, overlays);
+}
+
+void WorldView::addTriangle(const pfx::World& world, uint32_t body, uint32_t facet, Color color) {
+  const auto placed = meshOfBody(world, body);
+  if (!placed || facet >= placed->mesh->numFacets()) return;
+  const pfx::MeshTriangle t = pfx::meshTriangle(*placed->mesh, facet);
+  std::array<pfx::Vec3, 3> corners;
+  const pfx::Vec3 normal = placed->pose.orientation * t.normal;
+  const float size = std::sqrt((t.vertex[1] - t.vertex[0]).cross(t.vertex[2] - t.vertex[0]).norm());
+  for (size_t k = 0; k < 3; ++k) corners[k] = placed->pose.apply(t.vertex[k]) + 0.004f * size * normal;
+  for (size_t k = 0; k < 3; ++k) list_.add(Line{corners[k], corners[(k + 1) % 3], color, 3.0f});
+  const pfx::Vec3 middle = (corners[0] + corners[1] + corners[2]) / 3.0f;
+  list_.add(Arrow{middle, middle + 0.35f * size * normal, color, 2.5f});
+  const uint64_t key = 0x7472690000000000u ^ uint64_t(body) << 32 ^ facet;
+  const std::array<uint32_t, 3> order = {0, 1, 2};
+  list_.defineTransientMesh(key, [&] { return makeMesh(t.vertex, order); });
+  const Color tint = (color & 0x00ffffffu) | 0x66000000u;
+  list_.add(key, {.position = placed->pose.position + 0.003f * size * normal,
+                  .orientation = placed->pose.orientation,
+                  .color = tint,
+                  .finish = uint32_t(pfx::Finish::Translucent),
+                  .pick = pickId(PickKind::Body, body)});
+}
+
+void WorldView::mark(const pfx::World& world, const pfx::MeshTriangleId& triangle, pfx::MeshDraw what) {
+  if (triangle.body >= world.collidables().size()) return;
+  if (debug_.setLargeMeshFlag(triangle, world.collidables()[triangle.body], what) != pfx::Error::Ok) return;
+  if (what == pfx::MeshDraw::None)
+    marks_.erase(triangle);
+  else
+    marks_[triangle] = what;
+}
+
+pfx::MeshDraw WorldView::markOf(const pfx::MeshTriangleId& triangle) const {
+  const auto found = marks_.find(triangle);
+  return found == marks_.end() ? pfx::MeshDraw::None : found->second;
 }
 
 }  // namespace viewer

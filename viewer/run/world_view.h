@@ -16,6 +16,12 @@ class WorldView {
 
   // Adds everything; call it between begin() and end() of the list.
   void add(const pfx::World& world, const Overlays& overlays);
+  // Shows which triangle is meant: its outline, its normal, and its face tinted.
+  void addTriangle(const pfx::World& world, uint32_t body, uint32_t facet, Color color);
+
+  // What is drawn of single triangles of large meshes; a mark of None is no mark.
+  void mark(const pfx::World& world, const pfx::MeshTriangleId& triangle, pfx::MeshDraw what);
+  pfx::MeshDraw markOf(const pfx::MeshTriangleId& triangle) const;
 
  private:
   void addBodyOverlays(const pfx::World& world, const Overlays& overlays);
@@ -26,6 +32,7 @@ class WorldView {
   DrawList& list_;
   Recorder recorder_;
   pfx::DebugRender debug_;
+  std::map<pfx::MeshTriangleId, pfx::MeshDraw> marks_;
 };
 
 }  // namespace viewer

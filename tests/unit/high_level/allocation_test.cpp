@@ -1,6 +1,7 @@
 // The step of a warm world must not touch the heap. Counts every operator new of the process.
 #include <gtest/gtest.h>
 
+#include "pfx/high_level/character/character.h"
 #include "pfx/high_level/world/world.h"
 #include "tests/support/counted_allocations.h"
 
@@ -39,6 +40,30 @@ TEST_P(Allocation, AWarmStepDoesNotAllocate) {
   ASSERT_GT(world.counts().contact_points, 200u) << "the wall must touch, or the test proves nothing";
   const long before = support::g_allocations.load();
   for (int i = 0; i < 600; ++i) world.step(1.0f / 60.0f);
+  EXPECT_EQ(support::g_allocations.load() - before, 0);
+}
+
+TEST(CharacterAllocation, AWarmCharacterDoesNotAllocate) {
+  World world;
+  addBox(world, Vec3(0.0f, -1.0f, 0.0f), Vec3(100.0f, 1.0f, 20.0f), MotionType::Fixed);
+  for (int i = 0; i < 8; ++i)
+    addBox(world, Vec3(4.0f + 2.5f * static_cast<float>(i), 0.1f, 0.0f), Vec3(0.5f, 0.1f, 1.0f),
+           i % 2 == 0 ? MotionType::Fixed : MotionType::Active);
+  Character characters[2] = {addCharacter(world, {}), addCharacter(world, {.feet = Vec3(1.0f, 0.0f, 0.5f)})};
+  CharacterInput inputs[2];
+  // To and fro over the same obstacles; the first way warms the buffers.
+  const auto run = [&](int steps) {
+    for (int i = 0; i < steps; ++i) {
+      const Vec3 along(i % 600 < 300 ? 1.0f : -1.0f, 0.0f, 0.0f);
+      for (CharacterInput& input : inputs)
+        input = {.direction = along, .run = true, .jump = i % 100 == 50, .crouch = i % 200 > 170};
+      updateCharacters(world, characters, inputs, 1.0f / 60.0f);
+      world.step(1.0f / 60.0f);
+    }
+  };
+  run(1200);
+  const long before = support::g_allocations.load();
+  run(1200);
   EXPECT_EQ(support::g_allocations.load() - before, 0);
 }
 

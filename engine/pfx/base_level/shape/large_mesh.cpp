@@ -11,7 +11,7 @@ Vec3 unpack(const std::array<int16_t, 3>& v) {
 }
 
 template <class T>
-size_t bytes(const std::vector<T>& v) {
+size_t bytes(const MeshArray<T>& v) {
   return v.size() * sizeof(T);
 }
 

@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory_resource>
 #include <vector>
 
 #include "pfx/base_level/shape/aabb.h"
@@ -91,6 +92,10 @@ struct alignas(64) QuantizedMeshNode {
   MeshChild child[8];
 };
 
+// The arrays of a mesh; their memory comes from where the mesh was copied to, by default from the heap.
+template <class T>
+using MeshArray = std::pmr::vector<T>;
+
 struct LargeMesh {
   LargeMeshType type = LargeMeshType::ExpandedBvh;
   Aabb bounds;                 // m, of all that can touch: vertices grown by the largest thickness
@@ -98,22 +103,22 @@ struct LargeMesh {
   float max_thickness = 0.0f;  // m
   uint32_t num_source_vertices = 0;
 
-  std::vector<MeshIsland> islands;
-  std::vector<MeshIndices> neighbors;  // (n_facets) neighbour << 2 | its edge, across edge k; kNoFacet: none
-  std::vector<uint32_t> source;        // (n_facets) triangle that the facet was built from
-  std::vector<uint32_t> user_data;     // (n_facets), or empty: zero for all
+  MeshArray<MeshIsland> islands;
+  MeshArray<MeshIndices> neighbors;  // (n_facets) neighbour << 2 | its edge, across edge k; kNoFacet: none
+  MeshArray<uint32_t> source;        // (n_facets) triangle that the facet was built from
+  MeshArray<uint32_t> user_data;     // (n_facets), or empty: zero for all
 
-  std::vector<MeshVertex> vertices;    // expanded
-  std::vector<MeshIndices> triangles;  // expanded: (n_facets) into vertices
-  std::vector<MeshFacet> facets;       // expanded: (n_facets)
-  std::vector<MeshNode> nodes;         // expanded with hierarchy; the first is the root
+  MeshArray<MeshVertex> vertices;    // expanded
+  MeshArray<MeshIndices> triangles;  // expanded: (n_facets) into vertices
+  MeshArray<MeshFacet> facets;       // expanded: (n_facets)
+  MeshArray<MeshNode> nodes;         // expanded with hierarchy; the first is the root
 
   Vec3 grid_scale = Vec3::Zero();                  // quantized: m per cell
-  std::vector<QuantizedVertex> quantized_vertices;
-  std::vector<uint32_t> vertex_source;             // quantized: (n_vertices) index in the source vertices
-  std::vector<uint32_t> vertex_blocks;             // quantized: (n_facets / 64, rounded up) first vertex of the block
-  std::vector<QuantizedFacet> quantized_facets;    // quantized: (n_facets)
-  std::vector<QuantizedMeshNode> quantized_nodes;  // quantized with hierarchy
+  MeshArray<QuantizedVertex> quantized_vertices;
+  MeshArray<uint32_t> vertex_source;             // quantized: (n_vertices) index in the source vertices
+  MeshArray<uint32_t> vertex_blocks;             // quantized: (n_facets / 64, rounded up) first vertex of the block
+  MeshArray<QuantizedFacet> quantized_facets;    // quantized: (n_facets)
+  MeshArray<QuantizedMeshNode> quantized_nodes;  // quantized with hierarchy
 
   uint32_t numFacets() const { return static_cast<uint32_t>(source.size()); }
 };

@@ -11,7 +11,7 @@ bool areFinite(std::span<const Vec3> points) {
 
 // Children come after their parents, so that no path runs in a circle.
 template <class Node>
-bool childrenAreThere(const std::vector<Node>& nodes, uint32_t facets) {
+bool childrenAreThere(const MeshArray<Node>& nodes, uint32_t facets) {
   for (size_t i = 0; i < nodes.size(); ++i)
     for (MeshChild c : nodes[i].child) {
       if (c == kNoChild) continue;

@@ -59,7 +59,7 @@ struct CellBox {
 };
 
 template <class Box, class Node, class Visit>
-void visitNodes(const LargeMesh& mesh, const std::vector<Node>& nodes, const Aabb& box, Visit&& visit) {
+void visitNodes(const LargeMesh& mesh, const MeshArray<Node>& nodes, const Aabb& box, Visit&& visit) {
   const Box b(mesh, box);
   uint32_t stack[7 * 64 + 8];  // trees are at most 64 deep
   int size = 0;

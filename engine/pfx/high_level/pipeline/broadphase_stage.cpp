@@ -63,6 +63,9 @@ void begin(World::Impl& w) {
   w.free_bodies = w.active;
   w.tree_is_current = false;
   rememberPoses(w);
+  if (w.particle_store.empty()) return;
+  w.particle_store.start_poses.clear();
+  for (const RigidState& s : w.store.states) w.particle_store.start_poses.push_back(s.pose());
 }
 
 void findPairsAnew(World::Impl& w) {

@@ -26,6 +26,7 @@ bool reportsEvents(const World::Impl& w) {
                                  !e.next_fell_asleep.empty() || !e.fell_asleep.empty() || !e.end.empty() || !e.leave.empty());
 }
 bool hasModified(const World::Impl& w) { return !w.modified.empty(); }
+bool hasParticles(const World::Impl& w) { return !w.particle_store.empty(); }
 bool sleeps(const World::Impl& w) { return w.def.sleeping && !w.active.empty(); }
 
 constexpr std::array kSimple = {
@@ -42,6 +43,7 @@ constexpr std::array kSimple = {
     Stage{"break joints", hasJoints, stage::breakJoints},
     Stage{"key frames", hasKeyframes, stage::followKeyframes},
     Stage{"continuous", hasPairs, stage::stopAtImpacts},
+    Stage{"particles", hasParticles, stage::moveParticles},
     Stage{"events", reportsEvents, stage::reportEvents},
 };
 
@@ -62,6 +64,7 @@ constexpr std::array kStable = {
     Stage{"continuous", hasPairs, stage::stopAtImpacts},
     Stage{"store impulses", hasContacts, stage::storeImpulses},
     Stage{"modified impulses", hasModified, stage::keepModifiedImpulses},
+    Stage{"particles", hasParticles, stage::moveParticles},
     Stage{"sleep", sleeps, stage::putToSleep},
     Stage{"events", reportsEvents, stage::reportEvents},
 };

@@ -102,6 +102,22 @@ BodyId BodyStore::add(const BodyDef& def) {
   return {index, generations[index]};
 }
 
+void BodyStore::setShapes(uint32_t index, std::span<const Shape> new_shapes) {
+  const auto reject = [&](const std::string& what) {
+    throw std::invalid_argument("body \"" + names[index] + "\": " + what);
+  };
+  if (new_shapes.empty()) reject("has no shape");
+  Collidable collidable;
+  collidable.inline_shape = new_shapes.front();
+  if (new_shapes.size() > 1) collidable.external = new_shapes;
+  if (const Error e = collidable.finish(); e != Error::Ok) reject(std::string("shape: ") + toString(e));
+  shapes[index].assign(new_shapes.begin(), new_shapes.end());
+  if (new_shapes.size() > 1) collidable.external = shapes[index];
+  collidables[index] = collidable;
+  size[index] = collidable.half_extent.minCoeff();
+  radius[index] = (collidable.center.cwiseAbs() + collidable.half_extent).norm();
+}
+
 void BodyStore::remove(uint32_t index) {
   states[index] = RigidState{};
   states[index].motion_type = MotionType::Fixed;

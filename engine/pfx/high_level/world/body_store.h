@@ -26,6 +26,8 @@ struct BodyStore {
   // Throws std::invalid_argument naming the body and the field.
   BodyId add(const BodyDef& def);
   void remove(uint32_t index);
+  // Throws std::invalid_argument, and changes nothing, for no shape or one that is not valid.
+  void setShapes(uint32_t index, std::span<const Shape> new_shapes);
   bool isValid(BodyId id) const {
     return id.index < generations.size() && generations[id.index] == id.generation;
   }

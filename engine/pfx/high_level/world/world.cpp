@@ -40,6 +40,16 @@ void World::Impl::hasChanged(uint32_t body) {
   changed_bodies.push_back(body);
 }
 
+void World::Impl::forgetPairs(uint32_t body) {
+  for (auto* list : {&pairs, &sleeping_pairs}) {
+    std::erase_if(*list, [&](const Pair& p) {
+      if (p.body_a != body && p.body_b != body) return false;
+      contacts.remove(p.contact_id);
+      return true;
+    });
+  }
+}
+
 // Islands are made when somebody asks: for sleep, or to look at.
 void World::Impl::linkIslands() {
   refreshActive();
@@ -89,20 +99,21 @@ void World::removeBody(BodyId id) {
   if (!isValid(id)) return;
   impl_->wake(id.index);
   impl_->wakeNeighbours(id.index);
-  for (auto* list : {&impl_->pairs, &impl_->sleeping_pairs}) {
-    std::erase_if(*list, [&](const Pair& p) {
-      if (p.body_a != id.index && p.body_b != id.index) return false;
-      impl_->contacts.remove(p.contact_id);
-      return true;
-    });
-  }
+  impl_->forgetPairs(id.index);
   for (uint32_t i = 0; i < impl_->joint_store.links.size(); ++i) {
     const JointLink& link = impl_->joint_store.links[i];
     if (link.exists && (link.body_a == id.index || link.body_b == id.index)) removeJoint(jointId(i));
   }
   impl_->apart.forgetBody(id.index);
+  impl_->particle_store.forgetBody(id.index);
   impl_->store.remove(id.index);
   impl_->hasChanged(id.index);
+}
+
+void World::setShapes(BodyId id, std::span<const Shape> shapes) {
+  state(id);
+  impl_->store.setShapes(id.index, shapes);
+  impl_->forgetPairs(id.index);
 }
 
 bool World::isValid(BodyId id) const { return id && impl_->store.isValid(id); }
@@ -196,6 +207,13 @@ void World::letCollide(BodyId a, BodyId b) {
 
 bool World::areKeptApart(BodyId a, BodyId b) const {
   return isValid(a) && isValid(b) && impl_->apart.contains(a.index, b.index);
+}
+
+std::vector<Pair> World::pairsKeptApart() const {
+  std::vector<Pair> out;
+  for (uint64_t key : impl_->apart.keys())
+    out.push_back({.body_a = static_cast<uint32_t>(key >> 32), .body_b = static_cast<uint32_t>(key)});
+  return out;
 }
 
 WorldEvents World::events() const {
@@ -303,6 +321,6 @@ std::vector<std::string_view> World::stages() const {
   return names;
 }
 
-uint64_t World::stateHash() const { return hashStates(impl_->store.states); }
+uint64_t World::stateHash() const { return impl_->particle_store.hash(hashStates(impl_->store.states)); }
 
 }  // namespace pfx

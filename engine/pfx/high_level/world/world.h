@@ -14,12 +14,15 @@
 #include "pfx/base_level/rigid_body/rigid_state.h"
 #include "pfx/base_level/shape/collidable.h"
 #include "pfx/base_level/simd_level.h"
+#include "pfx/high_level/particles/particle_def.h"
 #include "pfx/high_level/world/events.h"
 #include "pfx/high_level/world/joint_def.h"
 #include "pfx/low_level/ray/ray_cast.h"
 #include "pfx/low_level/solver/joint_constraint.h"
 
 namespace pfx {
+
+class ParticleSystem;  // high_level/particles/particle_system.h
 
 // Which stages a world runs and what it keeps from step to step.
 enum class Pipeline : uint8_t {
@@ -100,6 +103,10 @@ class World {
   BodyId addBody(const BodyDef& def);
   void removeBody(BodyId id);
   bool isValid(BodyId id) const;
+
+  // Gives a body other shapes (at least one), relative to the same centre of mass; mass and inertia stay. Wakes its
+  // island, and its contacts are found anew. Throws std::invalid_argument for a shape that addBody() would refuse.
+  void setShapes(BodyId id, std::span<const Shape> shapes);
   BodyId bodyId(uint32_t index) const;
 
   // Advances by dt seconds (>= 0). Throws std::invalid_argument when dt is negative or not finite.
@@ -146,6 +153,7 @@ class World {
   void keepApart(BodyId a, BodyId b);
   void letCollide(BodyId a, BodyId b);
   bool areKeptApart(BodyId a, BodyId b) const;
+  std::vector<Pair> pairsKeptApart() const;  // ascending
 
   // What happened in the last step, and between it and the one before. Empty without WorldDef::report_events, except for
   // broken joints.
@@ -156,6 +164,17 @@ class World {
   // and must not change the world.
   void setPairFilter(PairFilter filter);
   void setContactModifier(ContactModifier modifier);
+
+  // Adds a system of particles, which is stepped with the world, after its bodies. Throws std::invalid_argument, naming
+  // the system and what is wrong with it. When a body is removed, particles anchored to it fly free; those without a
+  // mass stay where they are.
+  ParticlesId addParticles(const ParticleDef& def);
+  void removeParticles(ParticlesId id);
+  bool isValid(ParticlesId id) const;
+  ParticlesId particlesId(uint32_t index) const;
+  uint32_t numParticleSystems() const;                      // removed ones included
+  const ParticleSystem* particles(uint32_t index) const;  // null when it was removed
+  ParticleSystem& particles(ParticlesId id);
 
   // Queries about the bodies as they are now. The first one after a step or a change brings the tree up to
   // date; after that any number of threads may ask at once until the next change.
@@ -185,7 +204,7 @@ class World {
   size_t snapshot(std::span<std::byte> out) const;
   void restore(std::span<const std::byte> in);
 
-  uint64_t stateHash() const;                     // of pose and velocity of all bodies, bit-exact
+  uint64_t stateHash() const;                     // of all bodies and particles, bit-exact
 
   struct Impl;  // the stages of high_level/pipeline work on it
 

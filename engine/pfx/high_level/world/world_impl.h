@@ -10,6 +10,7 @@
 #include "pfx/high_level/world/body_store.h"
 #include "pfx/high_level/world/event_store.h"
 #include "pfx/high_level/world/joint_store.h"
+#include "pfx/high_level/world/particle_store.h"
 #include "pfx/high_level/world/world.h"
 #include "pfx/low_level/broadphase/decompose.h"
 #include "pfx/low_level/broadphase/sweep.h"
@@ -116,6 +117,8 @@ struct World::Impl {
   std::vector<ModifiedContact> modified;
   EventStore events;
 
+  ParticleStore particle_store;
+
   std::vector<StageTime> times;
   uint64_t stages_run = 0;  // a bit for each of the pipeline, since the world was made
   WorldCounts counts;
@@ -128,6 +131,7 @@ struct World::Impl {
   QueryScene queryScene();             // for queries about the bodies as they are now
   void needSolverBody(uint32_t body);  // the solver will work on it
   void listIslandPairs();
+  void forgetPairs(uint32_t body);     // with their contacts; those that last are found anew
   void wake(uint32_t body);            // and its whole island
   void wakeNeighbours(uint32_t body);  // everything that it touches
   void revivePairs();

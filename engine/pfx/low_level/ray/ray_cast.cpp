@@ -114,6 +114,7 @@ ShapeCastOutput castShape(const ShapeCastInput& input, const QueryScene& scene) 
   const Aabb box = shapeAabb(input.geometry, input.start).grown(input.tolerance);
   const auto tryBody = [&](uint32_t body) {
     const RigidState& state = scene.states[body];
+    if (body == input.ignore_body || !(input.motion_types & motionTypeBit(state.motion_type))) return;
     if (!filtersMatch(input.filter_self, input.filter_target, state.filter_self, state.filter_target)) return;
     const Sweep still{state.pose(), Vec3::Zero(), Vec3::Zero()};
     const auto shapes = scene.collidables[body].shapes();

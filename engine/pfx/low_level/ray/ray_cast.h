@@ -38,7 +38,12 @@ struct ShapeCastInput {
   uint32_t filter_self = 0xffffffffu;
   uint32_t filter_target = 0xffffffffu;
   float tolerance = 1e-4f;       // m, how near counts as touching
+  uint32_t ignore_body = kNoBody;  // is passed, such as the body that asks
+  uint8_t motion_types = 0xffu;    // bodies of these types count: bit k for motion type k
 };
+
+// The bit of a motion type in ShapeCastInput::motion_types.
+constexpr uint8_t motionTypeBit(MotionType t) { return static_cast<uint8_t>(1u << static_cast<uint8_t>(t)); }
 
 struct ShapeCastOutput {
   bool hit = false;

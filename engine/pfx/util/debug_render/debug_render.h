@@ -128,6 +128,8 @@ class DebugRender {
   // Marks a triangle; None removes the mark. Error::NullPointer when the body has no large mesh,
   // Error::OutOfRange when the mesh has no such island or triangle.
   Error setLargeMeshFlag(const MeshTriangleId& triangle, const Collidable& collidable, MeshDraw what);
+  // The same without a look at the mesh; marks of what is not there are not drawn.
+  void setLargeMeshFlag(const MeshTriangleId& triangle, MeshDraw what);
 
   // The solid shapes of all visible bodies, coloured by bodyLook: one draw_solids call for each geometry in
   // use. Geometries keep their place and key from call to call. Does not allocate once every geometry was

@@ -116,12 +116,16 @@ Error DebugRender::setLargeMeshFlag(const MeshTriangleId& triangle, const Collid
   const LargeMesh& mesh = *meshOf(*shape);
   if (triangle.island >= mesh.islands.size()) return Error::OutOfRange;
   if (triangle.triangle >= mesh.islands[triangle.island].num_facets) return Error::OutOfRange;
+  setLargeMeshFlag(triangle, what);
+  return Error::Ok;
+}
+
+void DebugRender::setLargeMeshFlag(const MeshTriangleId& triangle, MeshDraw what) {
   if (what == MeshDraw::None) {
     mesh_flags_.erase(triangle);
   } else {
     mesh_flags_[triangle] = what;
   }
-  return Error::Ok;
 }
 
 void DebugRender::renderLargeMeshByFlag(std::span<const RigidState> states,

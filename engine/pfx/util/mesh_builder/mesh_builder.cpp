@@ -188,13 +188,14 @@ LargeMeshResult buildLargeMesh(std::span<const Vec3> vertices, std::span<const u
   LargeMesh& mesh = result.mesh;
   mesh.type = options.type;
   mesh.num_source_vertices = static_cast<uint32_t>(vertices.size());
-  mesh.neighbors = findNeighbors(soup.triangles, mesh.num_source_vertices);
+  const std::vector<MeshIndices> neighbors = findNeighbors(soup.triangles, mesh.num_source_vertices);
+  mesh.neighbors.assign(neighbors.begin(), neighbors.end());
   if (isQuantized(mesh.type)) {
     storeQuantized(mesh, soup);
   } else {
     storeExpanded(mesh, soup);
   }
-  mesh.source = std::move(soup.source);
+  mesh.source.assign(soup.source.begin(), soup.source.end());
   if (!options.user_data.empty()) {
     mesh.user_data.resize(mesh.numFacets());
     for (uint32_t f = 0; f < mesh.numFacets(); ++f) mesh.user_data[f] = options.user_data[mesh.source[f]];

@@ -127,7 +127,7 @@ CellBox facetCells(const LargeMesh& mesh, uint32_t first, uint32_t count) {
 
 // Children come after their parents, so that one backward sweep finds all of them done.
 template <class Box, class Node, class LeafBounds>
-void computeNodes(std::vector<Node>& nodes, LeafBounds&& leaf_bounds) {
+void computeNodes(MeshArray<Node>& nodes, LeafBounds&& leaf_bounds) {
   for (size_t i = nodes.size(); i-- > 0;) {
     for (int slot = 0; slot < 8; ++slot) {
       const MeshChild child = nodes[i].child[slot];

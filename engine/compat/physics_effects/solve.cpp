@@ -1,0 +1,167 @@
+// Solving: iterations over joints and contacts, one pair after the other.
+#include <algorithm>
+#include <span>
+
+#include "compat/physics_effects/solver_pair.h"
+
+namespace sce::PhysicsEffects {
+namespace {
+
+// The face between two bodies settles before what it passes on changes the next one. One visit an iteration leaves columns
+// of boxes swaying that stand with two.
+constexpr int kContactVisits = 2;
+
+// Indices of the pairs to solve, in order.
+struct Selection {
+  std::span<const PfxUInt32> contacts, joints;
+};
+
+template <class Item, class Fn>
+void forEachPair(const PfxSolveConstraintsParam& p, const PairList<Item>& list, std::span<const PfxUInt32> chosen, Fn&& fn) {
+  for (const PfxUInt32 i : chosen) {
+    const PfxConstraintPair& pair = list.pairs[i];
+    const SolverPair bodies(p.offsetSolverBodies[pfxGetRigidBodyIdA(pair)], p.offsetSolverBodies[pfxGetRigidBodyIdB(pair)]);
+    fn(bodies, list.items[pfxGetContactId(pair)]);
+  }
+}
+
+void warmStartContact(pfx::ImpulsePair bodies, PfxContactManifold& manifold) {
+  for (int k = 0; k < manifold.getNumContacts(); ++k) pfx::warmStart(bodies, impulses(manifold.getContactPoint(k)));
+}
+void warmStartJoint(pfx::ImpulsePair bodies, PfxJoint& joint) {
+  for (PfxJointConstraint& c : joint.m_constraints) pfx::warmStart(bodies, impulses(c.m_constraintRow));
+}
+void solveContact(pfx::ImpulsePair bodies, PfxContactManifold& manifold) {
+  for (int visit = 0; visit < kContactVisits; ++visit)
+    for (int k = 0; k < manifold.getNumContacts(); ++k)
+      pfx::solveImpulses(bodies, manifold.getCompositeFriction(), impulses(manifold.getContactPoint(k)));
+}
+void solveJoint(pfx::ImpulsePair bodies, PfxJoint& joint) {
+  for (PfxJointConstraint& c : joint.m_constraints) pfx::solveImpulses(bodies, impulses(c.m_constraintRow));
+}
+
+void solve(const PfxSolveConstraintsParam& p, const Selection& s) {
+  forEachPair(p, jointsOf(p), s.joints, warmStartJoint);
+  forEachPair(p, contactsOf(p), s.contacts, warmStartContact);
+  for (PfxUInt32 i = 0; i < p.iteration; ++i) {
+    forEachPair(p, jointsOf(p), s.joints, solveJoint);
+    forEachPair(p, contactsOf(p), s.contacts, solveContact);
+  }
+}
+
+// The pairs that take part, in groups that share no body which gives way. Groups can be solved side by side, and each pair
+// meets the same numbers as when all are solved in one row. Lies in the work buffer.
+class Groups {
+ public:
+  static PfxUInt32 bytes(PfxUInt32 bodies, PfxUInt32 contacts, PfxUInt32 joints) {
+    return SCE_PFX_BYTES_ALIGN16(static_cast<PfxUInt32>(sizeof(PfxUInt32)) * (3 * (bodies + 1) + contacts + joints));
+  }
+
+  Groups(const PfxSolveConstraintsParam& p)
+      : num_bodies_(p.numRigidBodies), parent_(static_cast<PfxUInt32*>(p.workBuff)), first_contact_(parent_ + num_bodies_ + 1),
+        first_joint_(first_contact_ + num_bodies_ + 1), contacts_(first_joint_ + num_bodies_ + 1), joints_(contacts_ + p.numContactPairs) {}
+
+  // All pairs in one group.
+  Selection all(const PfxSolveConstraintsParam& p) {
+    return {choose(p, contactsOf(p), contacts_), choose(p, jointsOf(p), joints_)};
+  }
+
+  // Returns the number of groups: one for each body at most, many of them empty.
+  PfxUInt32 split(const PfxSolveConstraintsParam& p) {
+    for (PfxUInt32 i = 0; i < num_bodies_; ++i) parent_[i] = i;
+    connect(p, contactsOf(p));
+    connect(p, jointsOf(p));
+    distribute(p, contactsOf(p), first_contact_, contacts_);
+    distribute(p, jointsOf(p), first_joint_, joints_);
+    return num_bodies_;
+  }
+  Selection group(PfxUInt32 i) const {
+    return {{contacts_ + first_contact_[i], contacts_ + first_contact_[i + 1]}, {joints_ + first_joint_[i], joints_ + first_joint_[i + 1]}};
+  }
+
+ private:
+  PfxUInt32 root(PfxUInt32 i) {
+    while (parent_[i] != i) i = parent_[i] = parent_[parent_[i]];
+    return i;
+  }
+  static bool gives(const PfxSolveConstraintsParam& p, PfxUInt32 body) { return p.offsetSolverBodies[body].m_massInv > 0.0f; }
+  // The body whose group a pair belongs to.
+  static PfxUInt32 ownerOf(const PfxSolveConstraintsParam& p, const PfxConstraintPair& pair) {
+    const PfxUInt32 a = pfxGetRigidBodyIdA(pair);
+    return gives(p, a) ? a : pfxGetRigidBodyIdB(pair);
+  }
+
+  template <class Item>
+  static std::span<const PfxUInt32> choose(const PfxSolveConstraintsParam& p, const PairList<Item>& list, PfxUInt32* out) {
+    PfxUInt32 n = 0;
+    for (PfxUInt32 i = 0; i < list.count; ++i)
+      if (takesPart(list.pairs[i], p.offsetRigidStates)) out[n++] = i;
+    return {out, n};
+  }
+  template <class Item>
+  void connect(const PfxSolveConstraintsParam& p, const PairList<Item>& list) {
+    for (PfxUInt32 i = 0; i < list.count; ++i) {
+      const PfxUInt32 a = pfxGetRigidBodyIdA(list.pairs[i]), b = pfxGetRigidBodyIdB(list.pairs[i]);
+      if (!takesPart(list.pairs[i], p.offsetRigidStates) || !gives(p, a) || !gives(p, b)) continue;
+      const PfxUInt32 ra = root(a), rb = root(b);
+      parent_[std::max(ra, rb)] = std::min(ra, rb);
+    }
+  }
+  // Counting sort by group; the order within a group stays.
+  template <class Item>
+  void distribute(const PfxSolveConstraintsParam& p, const PairList<Item>& list, PfxUInt32* first, PfxUInt32* out) {
+    std::fill_n(first, num_bodies_ + 1, 0u);
+    const auto each = [&](auto&& fn) {
+      for (PfxUInt32 i = 0; i < list.count; ++i)
+        if (takesPart(list.pairs[i], p.offsetRigidStates)) fn(root(ownerOf(p, list.pairs[i])), i);
+    };
+    each([&](PfxUInt32 group, PfxUInt32) { ++first[group + 1]; });
+    for (PfxUInt32 g = 0; g < num_bodies_; ++g) first[g + 1] += first[g];
+    each([&](PfxUInt32 group, PfxUInt32 i) { out[first[group]++] = i; });
+    for (PfxUInt32 g = num_bodies_; g > 0; --g) first[g] = first[g - 1];  // each had moved on to the start of the next
+    first[0] = 0;
+  }
+
+  PfxUInt32 num_bodies_;
+  PfxUInt32 *parent_, *first_contact_, *first_joint_, *contacts_, *joints_;
+};
+
+void addChanges(const PfxSolveConstraintsParam& p, PfxUInt32 i) {
+  const PfxSolverBody& body = p.offsetSolverBodies[i];
+  if (!(body.m_massInv > 0.0f)) return;
+  PfxRigidState& state = p.offsetRigidStates[i];
+  state.setLinearVelocity(state.getLinearVelocity() + pfxReadVector3(body.m_deltaLinearVelocity));
+  state.setAngularVelocity(state.getAngularVelocity() + pfxReadVector3(body.m_deltaAngularVelocity));
+}
+
+}  // namespace
+
+PfxUInt32 pfxGetWorkBytesOfSolveConstraints(PfxUInt32 numRigidBodies, PfxUInt32 numContactPairs, PfxUInt32 numJointPairs, PfxUInt32) {
+  return Groups::bytes(numRigidBodies, numContactPairs, numJointPairs);
+}
+
+PfxInt32 pfxSolveConstraints(PfxSolveConstraintsParam& p, PfxTaskManager* taskManager) {
+  if (p.workBuff == nullptr || p.iteration == 0) return SCE_PFX_ERR_INVALID_VALUE;
+  if (!aligned16(p.workBuff)) return SCE_PFX_ERR_INVALID_ALIGN;
+  if (p.workBytes < Groups::bytes(p.numRigidBodies, p.numContactPairs, p.numJointPairs)) return SCE_PFX_ERR_OUT_OF_BUFFER;
+  if (p.numRigidBodies == 0 && p.numContactPairs + p.numJointPairs > 0) return SCE_PFX_ERR_OUT_OF_RANGE;
+  if (p.numRigidBodies > 0 && (p.offsetRigidStates == nullptr || p.offsetSolverBodies == nullptr)) return SCE_PFX_ERR_INVALID_VALUE;
+  if (const PfxInt32 e = check(p, contactsOf(p)); e != SCE_PFX_OK) return e;
+  if (const PfxInt32 e = check(p, jointsOf(p)); e != SCE_PFX_OK) return e;
+
+  pfx::TaskManager* pool = poolOf(taskManager);
+  Groups groups(p);
+  if (pfx::numWorkers(pool) == 1) {
+    solve(p, groups.all(p));
+  } else {
+    pfx::parallelFor(pool, groups.split(p), kBodyGrain, [&](pfx::TaskRange range) {
+      for (uint32_t i = range.begin; i < range.end; ++i) solve(p, groups.group(i));
+    });
+  }
+  pfx::parallelFor(pool, p.numRigidBodies, kBodyGrain, [&](pfx::TaskRange range) {
+    for (uint32_t i = range.begin; i < range.end; ++i) addChanges(p, i);
+  });
+  return SCE_PFX_OK;
+}
+
+}  // namespace sce::PhysicsEffects

@@ -1,0 +1,147 @@
+#include "compat/physics_effects/solver.h"
+
+#include <cmath>
+
+#include "pfx/base_level/rigid_body/rotation_update.h"
+#include "compat/physics_effects/solver_pair.h"
+
+namespace sce::PhysicsEffects {
+namespace {
+
+static_assert(sizeof(PfxConstraintRow) == sizeof(pfx::ImpulseRow));
+static_assert(sizeof(PfxJointRow) == sizeof(pfx::ImpulseJointRow));
+static_assert(offsetof(PfxContactPoint, m_constraintRow) - offsetof(PfxContactPoint, m_armA) == offsetof(pfx::ImpulsePoint, rows));
+static_assert(offsetof(PfxSolverBody, m_inertiaInv) == offsetof(pfx::ImpulseBody, inv_inertia));
+
+struct Surface {
+  PfxFloat restitution, separate_bias, time_step;
+};
+
+void setupPoint(PfxContactPoint& cp, const PfxRigidState& a, const PfxRigidState& b, const Surface& s,
+                pfx::ImpulsePair pair) {
+  const PfxVector3 arm_a = rotate(a.getOrientation(), pfxReadVector3(cp.m_localPointA));
+  const PfxVector3 arm_b = rotate(b.getOrientation(), pfxReadVector3(cp.m_localPointB));
+  const PfxVector3 velocity = a.getLinearVelocity() + cross(a.getAngularVelocity(), arm_a) - b.getLinearVelocity() -
+                              cross(b.getAngularVelocity(), arm_b);
+  pfx::setupImpulsePoint({native(arm_a), native(arm_b), native(velocity), native(cp.getNormal()), cp.m_distance,
+                          s.restitution, s.separate_bias, s.time_step},
+                         pair, impulses(cp));
+}
+
+void setupJoint(PfxJoint& joint, const PfxRigidState& a, const PfxRigidState& b, PfxFloat time_step, pfx::ImpulsePair pair) {
+  const pfx::Joint j = nativeJoint(joint);
+  const pfx::JointLinearization l =
+      pfx::linearizeJoint(j, pfx::toDouble(poseOf(a)), pfx::toDouble(poseOf(b)));
+  const PfxVector3 v[] = {a.getLinearVelocity(), a.getAngularVelocity(), b.getLinearVelocity(), b.getAngularVelocity()};
+  for (int i = 0; i < 6; ++i) {
+    PfxJointConstraint& c = joint.m_constraints[i];
+    double rate = 0.0;
+    for (int k = 0; k < 6; ++k) rate += l.jacobian.a[i][k] * v[k / 3][k % 3] + l.jacobian.b[i][k] * v[2 + k / 3][k % 3];
+    pfx::setupImpulseJointRow({j.axis[i], l.coordinates.value[i], l.jacobian.a[i], l.jacobian.b[i], static_cast<float>(rate),
+                               time_step, c.m_warmStarting != 0},
+                              pair, impulses(c.m_constraintRow));
+  }
+}
+
+}  // namespace
+
+PfxInt32 pfxSetupSolverBodies(PfxSetupSolverBodiesParam& param, PfxTaskManager* taskManager) {
+  if (param.states == nullptr || param.bodies == nullptr || param.solverBodies == nullptr) return SCE_PFX_ERR_INVALID_VALUE;
+  pfx::parallelFor(poolOf(taskManager), param.numRigidBodies, kBodyGrain, [&](pfx::TaskRange range) {
+    for (uint32_t i = range.begin; i < range.end; ++i) {
+      const PfxRigidState& state = param.states[i];
+      PfxSolverBody& solver = param.solverBodies[i];
+      solver = {};
+      solver.m_motionType = state.getMotionType();
+      pfxStoreQuat(state.getOrientation(), solver.m_orientation);
+      if (!pfx::isDynamic(native(state).motion_type) || state.isAsleep()) continue;
+      solver.m_massInv = param.bodies[i].getMassInv();
+      const PfxMatrix3 r(state.getOrientation());
+      const PfxMatrix3 inertia = r * param.bodies[i].getInertiaInv() * transpose(r);
+      for (int c = 0; c < 3; ++c) pfxStoreVector3(inertia[c], solver.m_inertiaInv + 3 * c);
+    }
+  });
+  return SCE_PFX_OK;
+}
+
+PfxInt32 pfxSetupContactConstraints(PfxSetupContactConstraintsParam& p, PfxTaskManager* taskManager) {
+  if (const PfxInt32 e = check(p, contactsOf(p)); e != SCE_PFX_OK) return e;
+  if (!(p.timeStep > 0.0f) || !(p.separateBias >= 0.0f)) return SCE_PFX_ERR_INVALID_VALUE;
+  if (p.numContactPairs > 0 && p.offsetRigidBodies == nullptr) return SCE_PFX_ERR_INVALID_VALUE;
+  pfx::parallelFor(poolOf(taskManager), p.numContactPairs, kBodyGrain, [&](pfx::TaskRange range) {
+    for (uint32_t i = range.begin; i < range.end; ++i) {
+      const PfxConstraintPair& pair = p.contactPairs[i];
+      if (!takesPart(pair, p.offsetRigidStates)) continue;
+      const PfxUInt16 a = pfxGetRigidBodyIdA(pair), b = pfxGetRigidBodyIdB(pair);
+      const PfxRigidBody &body_a = p.offsetRigidBodies[a], &body_b = p.offsetRigidBodies[b];
+      PfxContactManifold& manifold = p.offsetContactManifolds[pfxGetContactId(pair)];
+      manifold.setCompositeFriction(std::sqrt(body_a.getFriction() * body_b.getFriction()));
+      const Surface surface{0.5f * (body_a.getRestitution() + body_b.getRestitution()), p.separateBias, p.timeStep};
+      const SolverPair bodies(p.offsetSolverBodies[a], p.offsetSolverBodies[b]);
+      for (int k = 0; k < manifold.getNumContacts(); ++k)
+        setupPoint(manifold.getContactPoint(k), p.offsetRigidStates[a], p.offsetRigidStates[b], surface, bodies);
+    }
+  });
+  return SCE_PFX_OK;
+}
+
+PfxInt32 pfxSetupJointConstraints(PfxSetupJointConstraintsParam& p, PfxTaskManager* taskManager) {
+  if (const PfxInt32 e = check(p, jointsOf(p)); e != SCE_PFX_OK) return e;
+  if (!(p.timeStep > 0.0f)) return SCE_PFX_ERR_INVALID_VALUE;
+  pfx::parallelFor(poolOf(taskManager), p.numJointPairs, kBodyGrain, [&](pfx::TaskRange range) {
+    for (uint32_t i = range.begin; i < range.end; ++i) {
+      const PfxConstraintPair& pair = p.jointPairs[i];
+      if (!takesPart(pair, p.offsetRigidStates)) continue;
+      const PfxUInt16 a = pfxGetRigidBodyIdA(pair), b = pfxGetRigidBodyIdB(pair);
+      setupJoint(p.offsetJoints[pfxGetConstraintId(pair)], p.offsetRigidStates[a], p.offsetRigidStates[b], p.timeStep,
+                 SolverPair(p.offsetSolverBodies[a], p.offsetSolverBodies[b]));
+    }
+  });
+  return SCE_PFX_OK;
+}
+
+namespace {
+
+// Share of the velocity that remains after a step. Bodies have mostly the same damping, so the last power is kept.
+class Remaining {
+ public:
+  explicit Remaining(PfxFloat time_step) : steps_(60.0f * time_step) {}
+  PfxFloat operator()(PfxFloat damping) {
+    if (damping >= 1.0f) return 1.0f;
+    if (damping != damping_) damping_ = damping, power_ = pfx::pow(SCE_PFX_MAX(damping, 1e-6f), steps_);
+    return power_;
+  }
+
+ private:
+  PfxFloat steps_, damping_ = 1.0f, power_ = 1.0f;
+};
+
+void moveBody(PfxRigidState& state, PfxFloat h, Remaining& remaining) {
+  if (state.getMotionType() == kPfxMotionTypeFixed || state.isAsleep()) return;
+  const PfxVector3 v = state.getLinearVelocity(), w = state.getAngularVelocity();
+  state.setPosition(state.getPosition() + v * h);
+  state.setOrientation(normalize(compat(pfx::expMap(native(w * h))) * state.getOrientation()));
+  if (!pfx::isDynamic(native(state).motion_type)) return;
+  state.setLinearVelocity(v * remaining(state.getLinearDamping()));
+  state.setAngularVelocity(w * remaining(state.getAngularDamping()));
+}
+
+}  // namespace
+
+PfxInt32 pfxIntegrate(PfxRigidState& state, const PfxRigidBody&, PfxFloat timeStep) {
+  if (!(timeStep > 0.0f)) return SCE_PFX_ERR_INVALID_VALUE;
+  Remaining remaining(timeStep);
+  moveBody(state, timeStep, remaining);
+  return SCE_PFX_OK;
+}
+
+PfxInt32 pfxUpdateRigidStates(PfxUpdateRigidStatesParam& param, PfxTaskManager* taskManager) {
+  if (param.states == nullptr || param.bodies == nullptr || !(param.timeStep > 0.0f)) return SCE_PFX_ERR_INVALID_VALUE;
+  pfx::parallelFor(poolOf(taskManager), param.numRigidBodies, kBodyGrain, [&](pfx::TaskRange range) {
+    Remaining remaining(param.timeStep);
+    for (uint32_t i = range.begin; i < range.end; ++i) moveBody(param.states[i], param.timeStep, remaining);
+  });
+  return SCE_PFX_OK;
+}
+
+}  // namespace sce::PhysicsEffects

@@ -1,0 +1,72 @@
+// Pairs of bodies as the stages of the solver see them. Not part of the public headers.
+#pragma once
+
+#include <algorithm>
+
+#include "compat/physics_effects/native.h"
+#include "compat/physics_effects/solver.h"
+#include "pfx/low_level/solver/sequential_impulse.h"
+
+namespace sce::PhysicsEffects {
+
+constexpr uint32_t kBodyGrain = 64;  // bodies or pairs that one task takes
+
+inline pfx::ImpulsePoint& impulses(PfxContactPoint& p) { return reinterpret_cast<pfx::ImpulsePoint&>(p.m_armA); }
+inline pfx::ImpulseJointRow& impulses(PfxJointRow& row) { return reinterpret_cast<pfx::ImpulseJointRow&>(row); }
+inline pfx::ImpulseBody& impulses(PfxSolverBody& b) { return reinterpret_cast<pfx::ImpulseBody&>(b); }
+
+// The two bodies of a pair as the rows see them. What does not give way - a body without mass, or the partner of a
+// OneWay body, which does not push - is replaced by a copy, so that nothing is ever written to it.
+class SolverPair {
+ public:
+  SolverPair(PfxSolverBody& a, PfxSolverBody& b)
+      : pair_{gives(a, b) ? impulses(a) : still(a), gives(b, a) ? impulses(b) : still(b)} {}
+  SolverPair(const SolverPair&) = delete;
+  operator pfx::ImpulsePair() const { return pair_; }
+
+ private:
+  static bool gives(const PfxSolverBody& body, const PfxSolverBody& partner) {
+    return body.m_massInv > 0.0f && partner.m_motionType != kPfxMotionTypeOneWay;
+  }
+  // Both are still when two OneWay bodies or two without mass meet: nothing acts then, and one copy serves for both.
+  pfx::ImpulseBody& still(const PfxSolverBody& body) {
+    copy_ = {};
+    std::copy_n(body.m_deltaLinearVelocity, 3, copy_.dv);
+    std::copy_n(body.m_deltaAngularVelocity, 3, copy_.dw);
+    return copy_;
+  }
+  pfx::ImpulseBody copy_;
+  pfx::ImpulsePair pair_;
+};
+
+// A list of pairs, and the contacts or joints that they name.
+template <class Item>
+struct PairList {
+  const PfxConstraintPair* pairs;
+  PfxUInt32 count;
+  Item* items;
+};
+template <class Param>
+PairList<PfxContactManifold> contactsOf(const Param& p) {
+  return {p.contactPairs, p.numContactPairs, p.offsetContactManifolds};
+}
+template <class Param>
+PairList<PfxJoint> jointsOf(const Param& p) {
+  return {p.jointPairs, p.numJointPairs, p.offsetJoints};
+}
+
+// What every stage over pairs needs; an empty list needs nothing.
+template <class Param, class Item>
+PfxInt32 check(const Param& p, const PairList<Item>& list) {
+  if (list.count == 0) return SCE_PFX_OK;
+  if (list.items == nullptr || p.offsetRigidStates == nullptr || p.offsetSolverBodies == nullptr)
+    return SCE_PFX_ERR_INVALID_VALUE;
+  return checkPairs(list.pairs, list.count, p.numRigidBodies);
+}
+
+inline bool takesPart(const PfxConstraintPair& pair, const PfxRigidState* states) {
+  return pfxGetActive(pair) && solves(states[pfxGetRigidBodyIdA(pair)].getMotionMask(),
+                                      states[pfxGetRigidBodyIdB(pair)].getMotionMask());
+}
+
+}  // namespace sce::PhysicsEffects
