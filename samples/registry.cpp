@@ -14,8 +14,11 @@ constexpr std::array kSamples = {
     raycastScenes,
     jointScenes,
     serializeScenes,
+    characterScenes,
     xmlImportScenes,
+    tutorialScenes,
     accuracyScenes,
+    hardCaseScenes,
     benchmarkScenes,
 };
 
@@ -38,7 +41,8 @@ std::vector<const SceneEntry*> findScenes(std::string_view target) {
   const std::string_view sample = target.substr(0, slash);
   std::vector<const SceneEntry*> found;
   for (const SceneEntry& e : scenes())
-    if (e.sample == sample && (slash == target.npos || e.name == target.substr(slash + 1))) found.push_back(&e);
+    if (e.sample == sample && (slash == target.npos || e.name == target.substr(slash + 1)))
+      found.push_back(&e);
   return found;
 }
 

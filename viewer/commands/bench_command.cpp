@@ -6,6 +6,7 @@
 
 #include "samples/benchmarks/engines/sweep_summary.h"
 #include "viewer/bench/ladder_report.h"
+#include "viewer/bench/probe_report.h"
 #include "viewer/bench/race_report.h"
 #include "viewer/bench/sweep_report.h"
 #include "viewer/commands/arguments.h"
@@ -31,7 +32,7 @@ struct Options {
 struct Choice {
   std::vector<const bench::Case*> scenes;
   std::vector<const accuracy::Case*> sweeps;
-  bool ladder = false;
+  bool ladder = false, probes = false;
 };
 
 void addScenes(Choice& choice, bool large) {
@@ -45,7 +46,7 @@ void addSweeps(Choice& choice, bool front_page_alone) {
 }
 
 [[noreturn]] void failUnknown(const std::string& name) {
-  std::string known = "scenes, large, accuracy, front-page, ladder";
+  std::string known = "scenes, large, accuracy, front-page, ladder, probes";
   for (const bench::Case& c : bench::cases()) known += ", " + std::string(c.name);
   for (const accuracy::Case& c : accuracy::cases()) known += ", " + std::string(c.name);
   throw InputError("unknown case \"" + name + "\"; known: " + known);
@@ -60,6 +61,7 @@ Choice choose(const std::vector<std::string>& names) {
     else if (name == "accuracy") addSweeps(choice, false);
     else if (name == "front-page") addSweeps(choice, true);
     else if (name == "ladder") choice.ladder = true;
+    else if (name == "probes") choice.probes = true;
     else if (const bench::Case* scene = bench::findCase(name)) choice.scenes.push_back(scene);
     else if (const accuracy::Case* sweep = accuracy::findCase(name)) choice.sweeps.push_back(sweep);
     else failUnknown(name);
@@ -125,6 +127,7 @@ int runBench(const Options& options) {
   const std::vector<bench::Sweep> sweeps = runSweeps(choice, options);
   writeSweeps(sweeps, options, json);
   if (choice.ladder) json["ladder"] = runLadder();
+  if (choice.probes) json["probes"] = runProbes();
   if (!options.json.empty()) writeText(options.json, json.dump(2) + "\n");
   return options.check ? checkSweeps(sweeps) : 0;
 }
@@ -137,7 +140,7 @@ void addBenchCommand(CLI::App& app, Action& action) {
   const auto options = std::make_shared<Options>();
   command->add_option("CASE", options->cases,
                       "Benchmark scenes and accuracy cases by name, or a group: scenes (the small ones), large, accuracy, "
-                      "front-page, ladder (cost of one effect after the other). None: "
+                      "front-page, ladder (cost of one effect after the other), probes (quality in hard scenes). None: "
                       "scenes and accuracy");
   command->add_option("--threads", options->threads, "Numbers of threads for the scenes, for example 1,2")
       ->capture_default_str();

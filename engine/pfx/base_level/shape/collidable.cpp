@@ -50,12 +50,14 @@ Aabb bounds(const Cylinder& c, const Transform& pose) {
   return {pose.position - h, pose.position + h};
 }
 Aabb bounds(const ConvexMesh* mesh, const Transform& pose) {
+  if (mesh == nullptr) return {};
   const Mat3 r = pose.orientation.toRotationMatrix();
   Aabb box;
   for (const Vec3& v : mesh->vertices) box.extend(Vec3(pose.position + r * v));
   return box;
 }
 Aabb bounds(const LargeMesh* mesh, const Transform& pose) {
+  if (mesh == nullptr) return {};
   return transformedAabb(pose, mesh->bounds.center(), mesh->bounds.halfExtent());
 }
 

@@ -60,6 +60,9 @@ void begin(World::Impl& w) {
   w.solver_index.resize(w.store.states.size(), kNoSolverBody);
   w.joint_step.clear();
   w.free_components.clear();
+  w.joint_constraints.clear();
+  w.any_strained = false;
+  w.num_newton_islands = 0;
   w.free_bodies = w.active;
   w.tree_is_current = false;
   rememberPoses(w);

@@ -40,6 +40,8 @@ void gatherConstraints(World::Impl& w) {
                                .round_b = isRound(w.store.collidables[pair.body_b]),
                                .friction = std::sqrt(ba.friction * bb.friction),
                                .restitution = 0.5f * (ba.restitution + bb.restitution)});
+      w.constraints.back().strain = w.strainOf(w.constraints.back());
+      w.any_strained = w.any_strained || w.constraints.back().strain != ContactStrain::None;
     }
   }
   modifyContacts(w);

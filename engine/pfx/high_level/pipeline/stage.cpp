@@ -15,6 +15,11 @@ bool hasPairs(const World::Impl& w) { return !w.pairs.empty(); }
 bool hasConstraints(const World::Impl& w) { return !w.constraints.empty() || !w.joint_step.empty(); }
 bool hasContacts(const World::Impl& w) { return !w.constraints.empty(); }
 bool hasJoints(const World::Impl& w) { return w.joint_store.count() > 0; }
+bool mayNeedNewton(const World::Impl& w) {
+  return hasContacts(w) && w.def.contact_solver != ContactSolver::Soft &&
+         (w.any_strained || w.def.contact_solver == ContactSolver::Newton);
+}
+bool hasNewtonIslands(const World::Impl& w) { return w.num_newton_islands > 0; }
 bool hasFreeComponents(const World::Impl& w) { return !w.free_components.empty(); }
 bool hasFreeBodies(const World::Impl& w) { return !w.free_bodies.empty(); }
 bool hasKeyframes(const World::Impl& w) { return w.moving.size() > w.active.size() || !w.keyframes.empty(); }
@@ -35,8 +40,10 @@ constexpr std::array kSimple = {
     Stage{"approaches", reportsApproaches, stage::noteApproaches},
     Stage{"constraints", hasPairs, stage::gatherConstraints},
     Stage{"joints", hasJoints, stage::gatherJoints},
+    Stage{"choose solvers", mayNeedNewton, stage::chooseSolvers},
     Stage{"free flight", hasFreeBodies, stage::flyFree},
     Stage{"joint components", hasFreeComponents, stage::solveJointComponents},
+    Stage{"island solver", hasNewtonIslands, stage::solveNewtonIslands},
     Stage{"solver set-up", hasConstraints, stage::setUpSolver},
     Stage{"solve", hasConstraints, stage::solve},
     Stage{"write back", hasConstraints, stage::writeBack},
@@ -54,8 +61,10 @@ constexpr std::array kStable = {
     Stage{"approaches", reportsApproaches, stage::noteApproaches},
     Stage{"constraints", hasPairs, stage::gatherConstraints},
     Stage{"joints", hasJoints, stage::gatherJoints},
+    Stage{"choose solvers", mayNeedNewton, stage::chooseSolvers},
     Stage{"free flight", hasFreeBodies, stage::flyFree},
     Stage{"joint components", hasFreeComponents, stage::solveJointComponents},
+    Stage{"island solver", hasNewtonIslands, stage::solveNewtonIslands},
     Stage{"solver set-up", hasConstraints, stage::setUpSolver},
     Stage{"solve", hasConstraints, stage::solve},
     Stage{"write back", hasConstraints, stage::writeBack},

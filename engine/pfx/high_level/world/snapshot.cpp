@@ -323,8 +323,7 @@ void takeOver(World::Impl& w, World::Impl& from, const Memory& memory) {
   for (uint32_t i = 0; i < w.store.states.size(); ++i) {
     const std::vector<Shape>& shapes = w.store.shapes[i];
     if (shapes.empty() || !w.store.exists(i)) continue;
-    w.store.collidables[i].inline_shape = shapes.front();
-    if (shapes.size() > 1) w.store.collidables[i].external = shapes;
+    w.store.attachShapes(i, w.store.collidables[i]);
   }
   w.keyframes = std::move(from.keyframes);
   w.changed_bodies = std::move(from.changed_bodies);

@@ -18,6 +18,7 @@
 #include "pfx/high_level/world/events.h"
 #include "pfx/high_level/world/joint_def.h"
 #include "pfx/low_level/ray/ray_cast.h"
+#include "pfx/low_level/solver/contact_solver.h"
 #include "pfx/low_level/solver/joint_constraint.h"
 
 namespace pfx {
@@ -36,6 +37,7 @@ struct WorldDef {
   int substeps = 4;  // solver sub-steps a step, >= 1; error of contacts and joints falls with its square,
                      // cost of the solver rises in proportion
   JointSolver joint_solver = JointSolver::Auto;
+  ContactSolver contact_solver = ContactSolver::Auto;
   SimdLevel simd = SimdLevel::Auto;  // widest kernels to use; the result is the same for all
   int workers = 1;                   // threads, the caller included; the result is the same for any number
   bool sleeping = false;             // islands at rest are put to sleep

@@ -19,6 +19,7 @@
 #include "pfx/low_level/collision/detect.h"
 #include "pfx/low_level/island/islands.h"
 #include "pfx/low_level/solver/joint_components.h"
+#include "pfx/low_level/solver/newton_island.h"
 #include "pfx/low_level/solver/soft_step.h"
 #include "pfx/low_level/task/task_manager.h"
 
@@ -27,6 +28,14 @@ namespace pfx {
 struct BodyPose {
   uint32_t body;
   Transform pose;  // at the end of the step
+};
+
+// An island that the island solver takes.
+struct NewtonTask {
+  NewtonIsland solver;
+  std::vector<uint32_t> bodies;  // indices of states, ascending, movable or not
+  std::vector<BodyMotion> motions;
+  std::vector<ContactConstraint> constraints;
 };
 
 // Where a fast body is held up in a step.
@@ -110,6 +119,12 @@ struct World::Impl {
   std::vector<uint8_t> solver_dynamic;
   SoftStep soft_step;
 
+  // Islands that the island solver takes
+  bool any_strained = false;       // a contact of this step is
+  Islands contact_islands;         // of constraints and joints
+  std::deque<NewtonTask> newton_islands;
+  uint32_t num_newton_islands = 0;  // in use
+
   // What the application says about contacts, and what it is told
   ApartPairs apart;
   PairFilter pair_filter;
@@ -125,6 +140,7 @@ struct World::Impl {
   bool counts_are_current = false;
 
   bool solves(const Pair& pair) const;
+  ContactStrain strainOf(const ContactConstraint& constraint) const;  // solver_a, solver_b are indices of states
   void refreshActive();
   void linkIslands();
   void hasChanged(uint32_t body);      // from outside: it stands elsewhere, is new, or is gone
