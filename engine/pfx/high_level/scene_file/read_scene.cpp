@@ -67,6 +67,7 @@ class SceneReader {
     e.readName("pipeline", w.pipeline, scene_names::kPipelines);
     e.read("substeps", w.substeps);
     e.readName("joint-solver", w.joint_solver, scene_names::kJointSolvers);
+    e.readName("contact-solver", w.contact_solver, scene_names::kContactSolvers);
     e.read("sleeping", w.sleeping);
     e.read("sleep-velocity", w.sleep_velocity);
     e.read("sleep-steps", w.sleep_steps);

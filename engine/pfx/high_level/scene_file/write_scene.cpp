@@ -81,6 +81,8 @@ class SceneWriter {
     set(node, "pipeline", nameOf(scene_names::kPipelines, w.pipeline));
     set(node, "substeps", w.substeps);
     set(node, "joint-solver", nameOf(scene_names::kJointSolvers, w.joint_solver));
+    if (w.contact_solver != WorldDef{}.contact_solver)
+      set(node, "contact-solver", nameOf(scene_names::kContactSolvers, w.contact_solver));
     set(node, "sleeping", w.sleeping);
     set(node, "sleep-velocity", w.sleep_velocity);
     set(node, "sleep-steps", w.sleep_steps);

@@ -52,6 +52,7 @@ void ioWorld(A& a, Content& c) {
   ioEnum(a, d.pipeline, Pipeline::Stable);
   io(a, d.substeps);
   ioEnum(a, d.joint_solver, JointSolver::Soft);
+  ioEnum(a, d.contact_solver, ContactSolver::Newton);
   io(a, d.report_events), io(a, d.hit_speed);
   io(a, d.sleeping), io(a, d.sleep_velocity), io(a, d.sleep_steps), io(a, d.center), io(a, d.extent);
   io(a, c.world.dt), io(a, c.world.step_count);
