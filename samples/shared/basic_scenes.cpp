@@ -1,5 +1,6 @@
 #include "samples/shared/basic_scenes.h"
 
+#include "samples/all_in_world.h"
 #include "samples/shared/builders.h"
 
 namespace samples {
@@ -31,14 +32,14 @@ void addLandscape(World& world) {
 
 namespace {
 
-struct Primitives final : Scene {
+struct Primitives final : Scene, AllInWorld {
   void build(World& world) override {
     addGround(world);
     addPrimitives(world);
   }
 };
 
-struct Landscape final : Scene {
+struct Landscape final : Scene, AllInWorld {
   void build(World& world) override {
     addLandscape(world);
     addPrimitives(world);
@@ -46,7 +47,7 @@ struct Landscape final : Scene {
 };
 
 // Boxes hung one below the other; the lowest one is given a push.
-struct Joints final : Scene {
+struct Joints final : Scene, AllInWorld {
   void build(World& world) override {
     constexpr int kBoxes = 10;
     const BodyId ground = addGround(world);
@@ -75,14 +76,14 @@ struct Joints final : Scene {
   }
 };
 
-struct Tower final : Scene {
+struct Tower final : Scene, AllInWorld {
   void build(World& world) override {
     addGround(world);
     addTower(world, {});
   }
 };
 
-struct Pyramid final : Scene {
+struct Pyramid final : Scene, AllInWorld {
   void build(World& world) override {
     addGround(world);
     addPyramid(world, {});

@@ -76,8 +76,8 @@ Json edgesJson(const LargeMesh& mesh, uint32_t facet, const pfx::MeshTriangle& t
   return edges;
 }
 
-template <class Node>
-bool descend(const std::vector<Node>& nodes, uint32_t node, uint32_t facet, std::vector<BvhStep>& path) {
+template <class Nodes>
+bool descend(const Nodes& nodes, uint32_t node, uint32_t facet, std::vector<BvhStep>& path) {
   for (uint32_t i = 0; i < 8; ++i) {
     const pfx::MeshChild child = nodes[node].child[i];
     if (child == pfx::kNoChild) continue;

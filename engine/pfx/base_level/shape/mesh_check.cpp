@@ -10,8 +10,8 @@ bool areFinite(std::span<const Vec3> points) {
 }
 
 // Children come after their parents, so that no path runs in a circle.
-template <class Node>
-bool childrenAreThere(const std::vector<Node>& nodes, uint32_t facets) {
+template <class Nodes>
+bool childrenAreThere(const Nodes& nodes, uint32_t facets) {
   for (size_t i = 0; i < nodes.size(); ++i)
     for (MeshChild c : nodes[i].child) {
       if (c == kNoChild) continue;

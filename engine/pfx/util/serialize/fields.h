@@ -87,8 +87,8 @@ void ioList(A& a, List& list, Fn&& fn) {
     for (auto& entry : list) fn(a, entry);
   }
 }
-template <class A, class T>
-void io(A& a, std::vector<T>& list) {
+template <class A, class T, class Allocator>
+void io(A& a, std::vector<T, Allocator>& list) {
   ioList(a, list, [](A& archive, T& entry) { io(archive, entry); });
 }
 template <class A>
