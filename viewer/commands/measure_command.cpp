@@ -112,6 +112,20 @@ ordered_json posesJson(const pfx::World& world) {
   return poses;
 }
 
+// What the scene itself measures: that it shows what it is meant to show.
+ordered_json readingsJson(const SceneRun& run) {
+  auto readings = ordered_json::array();
+  for (const samples::Reading& r : run.scene().readings(run.world())) {
+    ordered_json reading = {{"name", r.name}, {"unit", r.unit}, {"value", r.value}};
+    if (r.limit != 0.0) {
+      reading["limit"] = r.limit;
+      reading["holds"] = r.value <= r.limit;
+    }
+    readings.push_back(std::move(reading));
+  }
+  return readings;
+}
+
 ordered_json describe(const SceneRun& run, const Measured& m, const Options& options) {
   const double steps = std::max(1, options.steps);
   ordered_json ms = {{"total", m.total_ms / steps}};
@@ -129,6 +143,7 @@ ordered_json describe(const SceneRun& run, const Measured& m, const Options& opt
                          {"max_joint_error", m.max_joint_error},
                          {"speed", m.max_speed}}},
                        {"ms_per_step", ms}};
+  json["readings"] = readingsJson(run);
   if (options.every_step) json["per_step"] = m.per_step;
   if (options.poses) json["poses"] = posesJson(run.world());
   return json;
@@ -146,6 +161,13 @@ void printText(const ordered_json& json) {
   for (const auto& [key, value] : json["final"].items()) row(key, value);
   std::printf("\nlargest of the run\n");
   for (const auto& [key, value] : json["max"].items()) row(key, value);
+  if (!json["readings"].empty()) std::printf("\nreadings of the scene\n");
+  for (const auto& r : json["readings"]) {
+    std::printf("%-40s %.6g %s", r["name"].get<std::string>().c_str(), r["value"].get<double>(),
+                r["unit"].get<std::string>().c_str());
+    if (r.contains("limit")) std::printf(" (%s %.6g)", r["holds"].get<bool>() ? "at most" : "more than", r["limit"].get<double>());
+    std::printf("\n");
+  }
   std::printf("\nms per step\n");
   for (const auto& [key, value] : json["ms_per_step"].items())
     std::printf("%-18s%.4f\n", key.c_str(), value.get<double>());

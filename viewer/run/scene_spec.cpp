@@ -10,6 +10,7 @@
 #include "pfx/high_level/scene_file/nearest_name.h"
 #include "pfx/high_level/scene_file/scene_file.h"
 #include "pfx/high_level/world/snapshot.h"
+#include "samples/all_in_world.h"
 #include "viewer/input_error.h"
 
 namespace viewer {
@@ -32,7 +33,7 @@ std::string nearestTarget(std::span<const SceneSpec> scenes, std::string_view wa
   return best;
 }
 
-class FileScene final : public samples::Scene {
+class FileScene final : public samples::Scene, public samples::AllInWorld {
  public:
   explicit FileScene(std::shared_ptr<const pfx::SceneDef> def) : def_(std::move(def)) {}
   void build(pfx::World& world) override { pfx::buildScene(*def_, world); }

@@ -347,6 +347,10 @@ void takeOver(World::Impl& w, World::Impl& from, const Memory& memory) {
   w.free_components.clear();
   w.joint_step.clear();
   w.joint_components = JointComponents{};
+  w.islands = Islands{};
+  w.island_links.clear();
+  w.island_link_pairs.clear();
+  w.island_pairs.clear();
   w.tree_is_current = false;
   w.counts_are_current = false;
   w.modified.clear();
