@@ -5,8 +5,22 @@
 namespace samples {
 namespace {
 
-constexpr std::array kSamples = {simpleScenes,  stableScenes, sleepScenes,     motionTypeScenes,
-                                 raycastScenes, jointScenes,  serializeScenes, xmlImportScenes};
+// In the order of the browser.
+constexpr std::array kSamples = {
+    simpleScenes,
+    stableScenes,
+    sleepScenes,
+    motionTypeScenes,
+    raycastScenes,
+    jointScenes,
+    serializeScenes,
+    characterScenes,
+    xmlImportScenes,
+    tutorialScenes,
+    accuracyScenes,
+    hardCaseScenes,
+    benchmarkScenes,
+};
 
 std::vector<SceneEntry> allScenes() {
   std::vector<SceneEntry> all;
@@ -27,7 +41,8 @@ std::vector<const SceneEntry*> findScenes(std::string_view target) {
   const std::string_view sample = target.substr(0, slash);
   std::vector<const SceneEntry*> found;
   for (const SceneEntry& e : scenes())
-    if (e.sample == sample && (slash == target.npos || e.name == target.substr(slash + 1))) found.push_back(&e);
+    if (e.sample == sample && (slash == target.npos || e.name == target.substr(slash + 1)))
+      found.push_back(&e);
   return found;
 }
 

@@ -14,6 +14,11 @@ std::vector<SceneEntry> motionTypeScenes();  // 4_motion_type
 std::vector<SceneEntry> raycastScenes();     // 5_raycast
 std::vector<SceneEntry> jointScenes();       // 6_joint
 std::vector<SceneEntry> serializeScenes();   // 7_serialize
+std::vector<SceneEntry> characterScenes();   // 10_character_ctrl
 std::vector<SceneEntry> xmlImportScenes();   // 11_xml_import
+std::vector<SceneEntry> tutorialScenes();    // tutorial
+std::vector<SceneEntry> accuracyScenes();    // accuracy
+std::vector<SceneEntry> hardCaseScenes();    // hard_cases
+std::vector<SceneEntry> benchmarkScenes();   // benchmarks
 
 }  // namespace samples

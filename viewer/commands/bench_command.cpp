@@ -1,132 +1,157 @@
-// vitrine bench: time a step of the benchmark scenes, by stage and beside the peers that are installed.
+// vitrine bench: time the benchmark scenes, and hold speed against error, beside the peers that are installed.
 #include <algorithm>
 #include <cstdio>
+#include <filesystem>
 #include <nlohmann/json.hpp>
 
-#include "samples/benchmarks/race.h"
+#include "samples/benchmarks/engines/sweep_summary.h"
+#include "viewer/bench/ladder_report.h"
+#include "viewer/bench/probe_report.h"
+#include "viewer/bench/race_report.h"
+#include "viewer/bench/sweep_report.h"
 #include "viewer/commands/arguments.h"
 #include "viewer/commands/commands.h"
 #include "viewer/file.h"
 #include "viewer/input_error.h"
-#include "viewer/run/scene_spec.h"
 
 namespace viewer {
 namespace {
 
 namespace bench = samples::benchmarks;
+namespace accuracy = samples::accuracy;
 using nlohmann::ordered_json;
 
 struct Options {
   std::vector<std::string> cases;
-  std::string threads = "1", json;
-  int steps = 0;  // 0: as many as the case says
+  std::string threads = "1", json, csv, svg;
+  int steps = 0;  // 0: as many as the scene says
+  bool quick = false, check = false, peers = false;
 };
 
-std::vector<const bench::Case*> findCases(const std::vector<std::string>& names) {
-  std::vector<const bench::Case*> found;
+// What is to be run.
+struct Choice {
+  std::vector<const bench::Case*> scenes;
+  std::vector<const accuracy::Case*> sweeps;
+  bool ladder = false, probes = false;
+};
+
+void addScenes(Choice& choice, bool large) {
   for (const bench::Case& c : bench::cases())
-    if (names.empty() || std::find(names.begin(), names.end(), c.name) != names.end()) found.push_back(&c);
+    if (c.large == large) choice.scenes.push_back(&c);
+}
+
+void addSweeps(Choice& choice, bool front_page_alone) {
+  for (const accuracy::Case& c : accuracy::cases())
+    if (c.front_page || !front_page_alone) choice.sweeps.push_back(&c);
+}
+
+[[noreturn]] void failUnknown(const std::string& name) {
+  std::string known = "scenes, large, accuracy, front-page, ladder, probes";
+  for (const bench::Case& c : bench::cases()) known += ", " + std::string(c.name);
+  for (const accuracy::Case& c : accuracy::cases()) known += ", " + std::string(c.name);
+  throw InputError("unknown case \"" + name + "\"; known: " + known);
+}
+
+Choice choose(const std::vector<std::string>& names) {
+  Choice choice;
+  if (names.empty()) addScenes(choice, false), addSweeps(choice, false);
   for (const std::string& name : names) {
-    const auto same = [&](const bench::Case* c) { return c->name == name; };
-    if (std::any_of(found.begin(), found.end(), same)) continue;
-    std::string known;
-    for (const bench::Case& c : bench::cases()) known += (known.empty() ? "" : ", ") + std::string(c.name);
-    throw InputError("unknown case \"" + name + "\"; known: " + known);
+    if (name == "scenes") addScenes(choice, false);
+    else if (name == "large") addScenes(choice, true);
+    else if (name == "accuracy") addSweeps(choice, false);
+    else if (name == "front-page") addSweeps(choice, true);
+    else if (name == "ladder") choice.ladder = true;
+    else if (name == "probes") choice.probes = true;
+    else if (const bench::Case* scene = bench::findCase(name)) choice.scenes.push_back(scene);
+    else if (const accuracy::Case* sweep = accuracy::findCase(name)) choice.sweeps.push_back(sweep);
+    else failUnknown(name);
   }
-  return found;
+  return choice;
 }
 
-// Mean ms of each stage in a step of our engine.
-std::vector<std::pair<std::string, double>> stageTable(const bench::Case& c, int threads, int steps) {
-  pfx::World world(pfx::WorldDef{.workers = threads});
-  c.build(world);
-  std::vector<std::pair<std::string, double>> table;
-  for (int i = 0; i < steps; ++i) {
-    world.step(samples::kTimeStep);
-    for (const pfx::StageTime& t : world.stageTimes()) {
-      auto row = std::find_if(table.begin(), table.end(), [&](const auto& r) { return r.first == t.name; });
-      if (row == table.end()) row = table.insert(row, {t.name, 0.0});
-      row->second += t.milliseconds / steps;
-    }
-  }
-  return table;
+bench::SweepOptions sweepOptions(const Options& options) {
+  bench::SweepOptions out;
+  if (options.quick) out.substeps = {1, 4, 16}, out.repeats = 1, out.longest_run = 0.1;
+  return out;
 }
 
-void printRace(std::span<const bench::Result> results) {
-  std::printf("  %-24s %10s %10s %10s %12s\n", "engine", "ms a step", "ratio", "worst ms", "drift m");
-  for (const bench::Result& r : results) {
-    if (!r.supported)
-      std::printf("  %-24s cannot run this scene\n", r.engine.c_str());
-    else
-      std::printf("  %-24s %10.3f %10.2f %10.3f %12.4g\n", r.engine.c_str(), r.ms_per_step.median,
-                  r.ratio.median, r.worst_ms, r.largest_drift);
+std::vector<bench::Sweep> runSweeps(const Choice& choice, const Options& options) {
+  std::vector<bench::Sweep> sweeps;
+  for (const accuracy::Case* c : choice.sweeps) {
+    std::fprintf(stderr, "bench: %s\n", std::string(c->name).c_str());
+    sweeps.push_back(bench::runSweep(*c, sweepOptions(options)));
+    std::printf("%s\n", sweepText(sweeps.back()).c_str());
   }
+  return sweeps;
 }
 
-ordered_json resultJson(const bench::Result& r) {
-  if (!r.supported) return {{"engine", r.engine}, {"supported", false}};
-  return {
-      {"engine", r.engine},
-      {"supported", true},
-      {"ms_per_step",
-       {{"median", r.ms_per_step.median}, {"lower", r.ms_per_step.lower}, {"upper", r.ms_per_step.upper}}},
-      {"ratio", r.ratio.median},
-      {"worst_ms", r.worst_ms},
-      {"kinetic_energy", r.kinetic_energy},
-      {"largest_drift", r.largest_drift}};
+void writeSweeps(const std::vector<bench::Sweep>& sweeps, const Options& options, ordered_json& json) {
+  for (const bench::Sweep& sweep : sweeps) json["accuracy"].push_back(sweepJson(sweep));
+  if (!options.csv.empty()) writeText(options.csv, sweepsCsv(sweeps));
+  if (sweeps.empty()) return;
+  const bench::Profile profile = bench::performanceProfile(sweeps);
+  std::printf("%s\n", profileText(profile).c_str());
+  json["profile"] = profileJson(profile);
+  if (options.svg.empty()) return;
+  const std::filesystem::path folder = options.svg;
+  for (const bench::Sweep& sweep : sweeps)
+    writeText(folder / (std::string(sweep.accuracy_case->name) + ".svg"), sweepSvg(sweep));
+  writeText(folder / "profile.svg", profileSvg(profile));
 }
 
-ordered_json runCase(const bench::Case& c, const std::vector<int>& threads, int steps) {
-  std::vector<bench::EngineKind> contestants;
-  for (int n : threads) {
-    contestants.push_back(bench::pfxEngine(c, n));
+int checkSweeps(const std::vector<bench::Sweep>& sweeps) {
+  int missed = 0;
+  for (const bench::Sweep& sweep : sweeps) {
+    const std::string what = missedBy(sweep);
+    if (what.empty()) continue;
+    std::printf("MISSED %s: %s\n", std::string(sweep.accuracy_case->name).c_str(), what.c_str());
+    ++missed;
   }
-  for (const bench::EngineKind& peer : bench::peers()) contestants.push_back(peer);
-  std::fprintf(stderr, "bench: %s, %d steps in %zu engines\n", std::string(c.name).c_str(), steps,
-               contestants.size());
-  const std::vector<bench::Result> results = bench::race(c, contestants, steps);
-
-  std::printf("%s: %s\n", std::string(c.name).c_str(), std::string(c.shows).c_str());
-  printRace(results);
-  ordered_json json = {{"case", c.name},
-                       {"steps", steps},
-                       {"engines", ordered_json::array()},
-                       {"stages", ordered_json::array()}};
-  for (const bench::Result& r : results) json["engines"].push_back(resultJson(r));
-  for (int n : threads) {
-    ordered_json ms = ordered_json::object();
-    std::printf("  stages, %d thread%s\n", n, n == 1 ? "" : "s");
-    for (const auto& [stage, time] : stageTable(c, n, steps)) {
-      std::printf("    %-22s %10.4f ms\n", stage.c_str(), time);
-      ms[stage] = time;
-    }
-    json["stages"].push_back({{"threads", n}, {"ms_per_step", ms}});
-  }
-  std::printf("\n");
-  return json;
+  std::printf("%zu of %zu accuracy cases hold\n", sweeps.size() - static_cast<size_t>(missed), sweeps.size());
+  return missed > 0 ? 1 : 0;
 }
 
 int runBench(const Options& options) {
-  const std::vector<int> threads = parseThreads(options.threads);
-  auto all = ordered_json::array();
-  for (const bench::Case* c : findCases(options.cases))
-    all.push_back(runCase(*c, threads, options.steps > 0 ? options.steps : c->steps));
-  if (!options.json.empty()) writeText(options.json, all.dump(2) + "\n");
-  return 0;
+  const Choice choice = choose(options.cases);
+  RaceOptions race{.threads = parseThreads(options.threads), .steps = options.steps};
+  if (options.quick && race.steps == 0) race.steps = 20;
+  for (const std::string& file : {options.json, options.csv})
+    if (!file.empty()) writeText(file, "");  // fails now rather than after minutes
+  if (!options.svg.empty()) requireWritableFolder(options.svg);
+
+  ordered_json json = {{"scenes", ordered_json::array()}, {"accuracy", ordered_json::array()}};
+  for (const bench::Case* c : choice.scenes) {
+    race.peers = !c->large || options.peers;
+    json["scenes"].push_back(runRace(*c, race));
+  }
+  const std::vector<bench::Sweep> sweeps = runSweeps(choice, options);
+  writeSweeps(sweeps, options, json);
+  if (choice.ladder) json["ladder"] = runLadder();
+  if (choice.probes) json["probes"] = runProbes();
+  if (!options.json.empty()) writeText(options.json, json.dump(2) + "\n");
+  return options.check ? checkSweeps(sweeps) : 0;
 }
 
 }  // namespace
 
 void addBenchCommand(CLI::App& app, Action& action) {
-  CLI::App* command =
-      app.add_subcommand("bench", "Time the benchmark scenes, by stage and beside installed peers");
+  CLI::App* command = app.add_subcommand(
+      "bench", "Time the benchmark scenes and hold speed against error, beside installed peers");
   const auto options = std::make_shared<Options>();
-  command->add_option("CASE", options->cases, "Benchmark scenes; none: all");
-  command->add_option("--threads", options->threads, "Numbers of threads, for example 1,2")
+  command->add_option("CASE", options->cases,
+                      "Benchmark scenes and accuracy cases by name, or a group: scenes (the small ones), large, accuracy, "
+                      "front-page, ladder (cost of one effect after the other), probes (quality in hard scenes). None: "
+                      "scenes and accuracy");
+  command->add_option("--threads", options->threads, "Numbers of threads for the scenes, for example 1,2")
       ->capture_default_str();
-  command->add_option("--steps", options->steps, "Steps of each; default as the case says")
+  command->add_option("--steps", options->steps, "Steps of each scene; default as the scene says")
       ->check(CLI::Range(1, 100000));
+  command->add_flag("--quick", options->quick, "Few steps and three sub-step counts, to see that everything runs");
+  command->add_flag("--peers", options->peers, "Race other engines in the large scenes too (slow)");
+  command->add_flag("--check", options->check, "Exit with 1 when an accuracy case misses its target or the plateau test");
   command->add_option("--json", options->json, "Write the figures to a file");
+  command->add_option("--csv", options->csv, "Write the points of the accuracy cases to a file");
+  command->add_option("--svg", options->svg, "Write a diagram of each accuracy case, and the profile, into a folder");
   command->callback([&action, options] { action = [options] { return runBench(*options); }; });
 }
 

@@ -77,7 +77,7 @@ Json edgesJson(const LargeMesh& mesh, uint32_t facet, const pfx::MeshTriangle& t
 }
 
 template <class Node>
-bool descend(const std::vector<Node>& nodes, uint32_t node, uint32_t facet, std::vector<BvhStep>& path) {
+bool descend(const pfx::MeshArray<Node>& nodes, uint32_t node, uint32_t facet, std::vector<BvhStep>& path) {
   for (uint32_t i = 0; i < 8; ++i) {
     const pfx::MeshChild child = nodes[node].child[i];
     if (child == pfx::kNoChild) continue;

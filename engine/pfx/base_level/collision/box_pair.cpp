@@ -155,7 +155,9 @@ void collideBoxBox(const LocalPair& pair, LocalResult& result) {
   }
   const Axis last = axisOfCode(int(pair.hint), ha, hb, pair.b_in_a);
   const float hysteresis = kHysteresis * std::min(ha.minCoeff(), hb.minCoeff());
-  if (last.code != 0 && last.code <= 6 && last.separation > axis.separation - hysteresis) axis = last;
+  // An edge axis gives one point, so it does not hold up the change to a face.
+  const bool may_stay = last.code != 0 && (last.code <= 6 || axis.code > 6);
+  if (may_stay && last.separation > axis.separation - hysteresis) axis = last;
 
   result.hint = uint32_t(axis.code);
   result.manifold.normal = axis.normal;

@@ -42,6 +42,12 @@ Axis leastOverlap(const Polytope& polytope, const ConvexCore& core, const Segmen
   return best;
 }
 
+constexpr uint32_t kEdgeFeature = 0x40000000u;  // beyond the names of faces
+
+struct RoundedReach {
+  float radius, margin;  // m
+};
+
 struct Stretch {
   float lo = 0.0f, hi = 1.0f;
   bool empty() const { return !(lo < hi); }
@@ -61,6 +67,42 @@ Stretch clipByFace(const Polytope& polytope, uint32_t face, const Segment& segme
     if (d1 > 0.0f) s.hi = std::min(s.hi, d0 / (d0 - d1));
   }
   return s;
+}
+
+// The longest edge that lies farthest along n and nearly parallel to the segment, seen along n, or null.
+const PolytopeEdge* parallelEdge(const Polytope& polytope, const Segment& segment, const Vec3& n) {
+  constexpr float kParallel = 0.05f;  // sine of the angle, three degrees
+  const float top = n.dot(polytope.vertices[farthestVertex(polytope, n)]);
+  const Vec3 along = (segment.p1 - segment.p0).normalized();
+  const PolytopeEdge* best = nullptr;
+  float longest = 0.0f;
+  for (const PolytopeEdge& edge : polytope.edges) {
+    const Vec3 &v0 = polytope.vertices[edge.v0], &v1 = polytope.vertices[edge.v1];
+    const float length = (v1 - v0).norm();
+    if (std::min(n.dot(v0), n.dot(v1)) < top - kParallel * length) continue;
+    if ((v1 - v0).cross(along).norm() > kParallel * length || length <= longest) continue;
+    best = &edge, longest = length;
+  }
+  return best;
+}
+
+// Both ends of the stretch where the segment runs beside an edge.
+int edgeContacts(const Polytope& polytope, const PolytopeEdge& edge, const Segment& segment,
+                 const LocalManifold& m, const RoundedReach& reach, LocalContact* out) {
+  const Vec3 &v0 = polytope.vertices[edge.v0], axis = polytope.vertices[edge.v1] - v0;
+  const float length = axis.squaredNorm();
+  const auto along = [&](const Vec3& p) { return std::clamp(axis.dot(p - v0) / length, 0.0f, 1.0f); };
+  const float t0 = along(segment.p0), t1 = along(segment.p1);
+  const Vec3 span = segment.p1 - segment.p0;
+  int count = 0;
+  for (const float t : {std::min(t0, t1), std::max(t0, t1)}) {
+    const Vec3 on_edge = v0 + t * axis;
+    const float u = std::clamp(span.dot(on_edge - segment.p0) / span.squaredNorm(), 0.0f, 1.0f);
+    const Vec3 on_surface = segment.at(u) - reach.radius * m.normal;
+    const LocalContact c = oppositePoints(on_edge, on_surface, m.normal, kEdgeFeature + uint32_t(count));
+    if (c.distance <= reach.margin) out[count++] = c;
+  }
+  return std::abs(t1 - t0) > 1e-3f ? count : 0;
 }
 
 }  // namespace
@@ -104,6 +146,10 @@ void collidePolytopeCapsule(const Polytope& polytope, const ConvexCore& core, co
       if (d - radius > pair.margin) continue;
       candidates[count++] = {s - d * m.normal, s - radius * m.normal, d - radius, 2u + end + 4u * face};
     }
+  }
+  if (count == 0 && capsule.half_length > 0.0f) {
+    if (const PolytopeEdge* edge = parallelEdge(polytope, segment, m.normal))
+      count = edgeContacts(polytope, *edge, segment, m, {radius, pair.margin}, candidates);
   }
   const float near = 1e-3f * (capsule.half_length + radius);
   bool covered = false;

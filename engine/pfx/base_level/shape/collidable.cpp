@@ -50,16 +50,24 @@ Aabb bounds(const Cylinder& c, const Transform& pose) {
   return {pose.position - h, pose.position + h};
 }
 Aabb bounds(const ConvexMesh* mesh, const Transform& pose) {
+  if (mesh == nullptr) return {};
   const Mat3 r = pose.orientation.toRotationMatrix();
   Aabb box;
   for (const Vec3& v : mesh->vertices) box.extend(Vec3(pose.position + r * v));
   return box;
 }
 Aabb bounds(const LargeMesh* mesh, const Transform& pose) {
+  if (mesh == nullptr) return {};
   return transformedAabb(pose, mesh->bounds.center(), mesh->bounds.halfExtent());
 }
 
 }  // namespace
+
+bool isMissing(const Geometry& geometry) {
+  if (const auto* convex = std::get_if<const ConvexMesh*>(&geometry)) return *convex == nullptr || (*convex)->faces.empty();
+  if (const auto* large = std::get_if<const LargeMesh*>(&geometry)) return *large == nullptr || (*large)->numFacets() == 0;
+  return false;
+}
 
 Aabb shapeAabb(const Geometry& geometry, const Transform& pose) {
   return std::visit([&](const auto& g) { return bounds(g, pose); }, geometry);

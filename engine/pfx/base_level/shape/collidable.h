@@ -12,11 +12,15 @@
 
 namespace pfx {
 
+class DynamicTree;  // low_level/broadphase/dynamic_tree.h
+
 struct Collidable {
   Shape inline_shape;               // the shape, when external is empty
   std::span<const Shape> external;  // several shapes, owned by the caller
   Vec3 center = Vec3::Zero();       // m, of the local bounds, body frame
   Vec3 half_extent = Vec3::Zero();  // m
+  // Of `external`, for bodies of many shapes, owned by the caller; may be null. See low_level/broadphase/shape_tree.h.
+  const DynamicTree* shape_tree = nullptr;
 
   std::span<const Shape> shapes() const { return external.empty() ? std::span(&inline_shape, 1) : external; }
 
@@ -25,7 +29,10 @@ struct Collidable {
   Error finish();
 };
 
-// Bounds of one shape in the frame that `pose` maps the shape frame to (m).
+// Whether the geometry is a mesh that is not there, or one without faces.
+bool isMissing(const Geometry& geometry);
+
+// Bounds of one shape in the frame that `pose` maps the shape frame to (m). Empty for a missing mesh.
 Aabb shapeAabb(const Geometry& geometry, const Transform& pose);
 
 }  // namespace pfx

@@ -40,8 +40,11 @@ void gatherConstraints(World::Impl& w) {
                                .round_b = isRound(w.store.collidables[pair.body_b]),
                                .friction = std::sqrt(ba.friction * bb.friction),
                                .restitution = 0.5f * (ba.restitution + bb.restitution)});
+      w.constraints.back().strain = w.strainOf(w.constraints.back());
+      w.any_strained = w.any_strained || w.constraints.back().strain != ContactStrain::None;
     }
   }
+  modifyContacts(w);
   for (const ContactConstraint& c : w.constraints) w.needSolverBody(c.solver_a), w.needSolverBody(c.solver_b);
   w.free_bodies.clear();
   for (uint32_t i : w.active)

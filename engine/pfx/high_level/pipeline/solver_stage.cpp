@@ -39,21 +39,6 @@ SolverBody makeSolverBody(const RigidState& s, const RigidBody& body, const Iner
   return b;
 }
 
-BodyMotion makeMotion(const World::Impl& w, uint32_t i, float h) {
-  const RigidBody& body = w.store.bodies[i];
-  const RigidState& s = w.store.states[i];
-  return {.start_orientation = s.orientation,
-          .inertia = isDynamic(s.motion_type) ? &w.store.inertias[i] : nullptr,
-          .acceleration = body.gravity_scale * w.def.gravity,
-          .torque = Vec3::Zero(),
-          .linear_decay = body.linear_damping > 0.0f ? exp(-body.linear_damping * h) : 1.0f,
-          .angular_decay = body.angular_damping > 0.0f ? exp(-body.angular_damping * h) : 1.0f,
-          .free_velocity = Vec3::Zero(),
-          .free_momentum = Vec3::Zero(),
-          .impulse_velocity = Vec3::Zero(),
-          .impulse_momentum = Vec3::Zero()};
-}
-
 // Motion of a body under constant acceleration and velocity-proportional damping over t seconds:
 // v' = a - c v has v(t) = v e^-ct + a (1 - e^-ct) / c and x(t) its integral.
 void flyFor(RigidState& s, const Vec3& a, float c, float t) {
@@ -69,6 +54,21 @@ void flyFor(RigidState& s, const Vec3& a, float c, float t) {
 }
 
 }  // namespace
+
+BodyMotion makeMotion(const World::Impl& w, uint32_t i, float h) {
+  const RigidBody& body = w.store.bodies[i];
+  const RigidState& s = w.store.states[i];
+  return {.start_orientation = s.orientation,
+          .inertia = isDynamic(s.motion_type) ? &w.store.inertias[i] : nullptr,
+          .acceleration = body.gravity_scale * w.def.gravity,
+          .torque = Vec3::Zero(),
+          .linear_decay = body.linear_damping > 0.0f ? exp(-body.linear_damping * h) : 1.0f,
+          .angular_decay = body.angular_damping > 0.0f ? exp(-body.angular_damping * h) : 1.0f,
+          .free_velocity = Vec3::Zero(),
+          .free_momentum = Vec3::Zero(),
+          .impulse_velocity = Vec3::Zero(),
+          .impulse_momentum = Vec3::Zero()};
+}
 
 void flyFree(World::Impl& w) {
   w.tasks.parallelFor(static_cast<uint32_t>(w.free_bodies.size()), kBodyGrain, [&](TaskRange r) {

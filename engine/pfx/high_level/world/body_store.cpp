@@ -4,6 +4,7 @@
 #include <stdexcept>
 
 #include "pfx/base_level/rigid_body/mass_properties.h"
+#include "pfx/low_level/broadphase/shape_tree.h"
 
 namespace pfx {
 namespace {
@@ -78,9 +79,9 @@ BodyId BodyStore::add(const BodyDef& def) {
   Collidable collidable;
   if (!reuse) shapes.emplace_back();
   shapes[index] = def.shapes;
-  collidable.inline_shape = def.shapes.front();
-  if (def.shapes.size() > 1) collidable.external = shapes[index];
+  collidable.external = shapes[index];
   if (const Error e = collidable.finish(); e != Error::Ok) reject(def, std::string("shape: ") + toString(e));
+  attachShapes(index, collidable);
   const RigidBody body = makeBody(def);
   if (isDynamic(def.motion_type) && !(body.inertia.determinant() > 0.0f))
     reject(def, "inertia is not positive definite");
@@ -112,10 +113,20 @@ void BodyStore::setShapes(uint32_t index, std::span<const Shape> new_shapes) {
   if (new_shapes.size() > 1) collidable.external = new_shapes;
   if (const Error e = collidable.finish(); e != Error::Ok) reject(std::string("shape: ") + toString(e));
   shapes[index].assign(new_shapes.begin(), new_shapes.end());
-  if (new_shapes.size() > 1) collidable.external = shapes[index];
+  attachShapes(index, collidable);
   collidables[index] = collidable;
   size[index] = collidable.half_extent.minCoeff();
   radius[index] = (collidable.center.cwiseAbs() + collidable.half_extent).norm();
+}
+
+void BodyStore::attachShapes(uint32_t index, Collidable& collidable) {
+  if (shape_trees.size() <= index) shape_trees.resize(index + 1);
+  const std::vector<Shape>& all = shapes[index];
+  const bool many = all.size() > kShapesWithoutTree;
+  shape_trees[index] = many ? makeShapeTree(all) : DynamicTree();
+  collidable.inline_shape = all.front();
+  collidable.external = all.size() > 1 ? std::span<const Shape>(all) : std::span<const Shape>();
+  collidable.shape_tree = many ? &shape_trees[index] : nullptr;
 }
 
 void BodyStore::remove(uint32_t index) {

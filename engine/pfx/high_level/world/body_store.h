@@ -8,6 +8,7 @@
 
 #include "pfx/base_level/rigid_body/rotation_update.h"
 #include "pfx/high_level/world/world.h"
+#include "pfx/low_level/broadphase/dynamic_tree.h"
 
 namespace pfx {
 
@@ -22,10 +23,12 @@ struct BodyStore {
   std::vector<uint32_t> generations;  // odd while the body exists
   std::vector<uint32_t> free_slots;
   std::deque<std::vector<Shape>> shapes;  // by body; addresses stay, collidables point here
+  std::deque<DynamicTree> shape_trees;    // by body; empty for bodies of few shapes
 
   // Throws std::invalid_argument naming the body and the field.
   BodyId add(const BodyDef& def);
   void remove(uint32_t index);
+  void attachShapes(uint32_t index, Collidable& collidable);  // has it refer to shapes[index]
   // Throws std::invalid_argument, and changes nothing, for no shape or one that is not valid.
   void setShapes(uint32_t index, std::span<const Shape> new_shapes);
   bool isValid(BodyId id) const {

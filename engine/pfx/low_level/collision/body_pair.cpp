@@ -3,6 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pfx/low_level/broadphase/shape_tree.h"
+#include "pfx/low_level/collision/merge_manifolds.h"
+
 namespace pfx {
 namespace {
 
@@ -43,20 +46,26 @@ void collideOne(const CollideInput& input, MeshContactScratch& mesh_scratch, Fou
   }
 }
 
-// Manifolds of compounds: all shapes of A against all shapes of B whose bounds meet.
+// Manifolds of compounds: the shapes of the body that has fewer are looked up among those of the other.
 void collideParts(const BodyPair& p, MeshContactScratch& mesh_scratch, FoundManifolds& out) {
   const auto shapes_a = p.a.shapes(), shapes_b = p.b.shapes();
-  for (uint32_t i = 0; i < shapes_a.size(); ++i) {
-    const Aabb box_a = shapeAabb(shapes_a[i].geometry, p.pose_a * shapes_a[i].offset).grown(p.margin);
-    for (uint32_t j = 0; j < shapes_b.size(); ++j) {
-      if (!box_a.overlaps(shapeAabb(shapes_b[j].geometry, p.pose_b * shapes_b[j].offset))) continue;
-      const size_t first = out.manifolds.size();
-      collideOne({shapes_a[i], p.pose_a, shapes_b[j], p.pose_b, p.margin, nullptr}, mesh_scratch, out);
-      // Features of different parts must not be mistaken for each other.
-      for (ContactManifold& m : std::span(out.manifolds).subspan(first))
-        for (int k = 0; k < m.num_points; ++k) m.points[k].feature ^= (i * 64 + j + 1) * 0x9e3779b1u;
-    }
-  }
+  const auto collide = [&](uint32_t i, uint32_t j) {
+    const size_t first = out.manifolds.size();
+    collideOne({shapes_a[i], p.pose_a, shapes_b[j], p.pose_b, p.margin, nullptr}, mesh_scratch, out);
+    // Features of different parts must not be mistaken for each other.
+    for (ContactManifold& m : std::span(out.manifolds).subspan(first))
+      for (int k = 0; k < m.num_points; ++k) m.points[k].feature ^= ((i << 16 ^ j) + 1) * 0x9e3779b1u;
+  };
+  const bool a_is_larger = shapes_a.size() >= shapes_b.size();
+  const Collidable &few = a_is_larger ? p.b : p.a, &many = a_is_larger ? p.a : p.b;
+  const Transform few_in_many = a_is_larger ? relative(p.pose_a, p.pose_b) : relative(p.pose_b, p.pose_a);
+  const Transform many_in_few = a_is_larger ? relative(p.pose_b, p.pose_a) : relative(p.pose_a, p.pose_b);
+  visitShapes(few, transformedAabb(many_in_few, many.center, many.half_extent).grown(p.margin),
+              [&](uint32_t f) {
+                const Shape& shape = few.shapes()[f];
+                const Aabb box = shapeAabb(shape.geometry, few_in_many * shape.offset).grown(p.margin);
+                visitShapes(many, box, [&](uint32_t m) { a_is_larger ? collide(m, f) : collide(f, m); });
+              });
 }
 
 }  // namespace
@@ -66,11 +75,14 @@ bool hasMesh(const Collidable& c) { return std::ranges::any_of(c.shapes(), isMes
 void collideBodies(const BodyPair& p, PairCache& cache, MeshContactScratch& mesh_scratch,
                    FoundManifolds& out) {
   const auto shapes_a = p.a.shapes(), shapes_b = p.b.shapes();
-  if (shapes_a.size() == 1 && shapes_b.size() == 1)
+  const bool single = shapes_a.size() == 1 && shapes_b.size() == 1;
+  if (single)
     collideOne({shapes_a[0], p.pose_a, shapes_b[0], p.pose_b, p.margin, &cache}, mesh_scratch, out);
   else
     collideParts(p, mesh_scratch, out);
   for (ContactManifold& m : out.manifolds) m.local_normal = p.pose_a.orientation.conjugate() * m.normal;
+  if (!single && out.manifolds.size() > 1)
+    mergeManifolds(relative(p.pose_a, p.pose_b), mesh_scratch.parts, out.manifolds);
 }
 
 }  // namespace pfx

@@ -8,6 +8,13 @@
 
 namespace pfx {
 
+// What makes a contact hard for sequential impulses.
+enum class ContactStrain : uint8_t {
+  None,
+  Loaded,   // carries many times the weight of its lighter body
+  Leaning,  // may hold up what stands only while nothing gives way
+};
+
 // One manifold to be solved.
 struct ContactConstraint {
   ContactManifold* manifold;
@@ -16,6 +23,7 @@ struct ContactConstraint {
   bool round_a, round_b;        // whether A, B rolls: its contact point is no fixed point of the body
   float friction;               // of the pair
   float restitution;            // of the pair
+  ContactStrain strain = ContactStrain::None;
 };
 
 // Copies up to eight constraints into a batch; the lanes left over point at `idle_body` and stay neutral.

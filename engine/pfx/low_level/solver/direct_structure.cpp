@@ -58,6 +58,8 @@ bool eliminate(Neighbours& graph, uint64_t max_products, DirectStructure& out,
   return true;
 }
 
+}  // namespace
+
 uint32_t findBlock(const DirectStructure& s, uint32_t row, uint32_t column) {
   const auto begin = s.entries.begin() + s.column_begin[column],
              end = s.entries.begin() + s.column_begin[column + 1];
@@ -73,8 +75,6 @@ void listUpdates(DirectStructure& s) {
         s.updates.push_back(k == i ? DirectStructure::kDiagonal
                                    : findBlock(s, s.entries[i].row, s.entries[k].row));
 }
-
-}  // namespace
 
 bool buildDirectStructure(std::span<const JointEnds> joints, uint32_t num_bodies, uint64_t max_products,
                           DirectStructure& out) {

@@ -48,4 +48,10 @@ struct DirectStructure {
 bool buildDirectStructure(std::span<const JointEnds> joints, uint32_t num_bodies, uint64_t max_products,
                           DirectStructure& out);
 
+// The off-diagonal block of two positions, row later than column, that the structure has.
+uint32_t findBlock(const DirectStructure& structure, uint32_t row, uint32_t column);
+
+// Appends the updates that follow from columns and entries.
+void listUpdates(DirectStructure& structure);
+
 }  // namespace pfx

@@ -94,6 +94,31 @@ TEST(BoxPair, SwappingTheBoxesMirrorsTheManifold) {
   EXPECT_GT(touching, 1000);
 }
 
+TEST(BoxPair, AmongEquallyGoodEdgeAxesTheLastOneStays) {
+  // A corner points down on an edge along X; two of its edges mirror each other and cross it at the same depth.
+  const Shape a = box(0.5f, 0.5f, 0.5f);
+  const Transform edge_up{Vec3::Zero(), axisAngle(Vec3::UnitX(), 0.785398163f)};
+  const Quat corner_down = Quat::FromTwoVectors(Vec3(-1, -1, -1), Vec3(0, -1, 0));
+  const Vec3 third = corner_down * Vec3::UnitZ();
+  const Quat mirrored = axisAngle(Vec3::UnitY(), std::atan2(third.z(), third.x())) * corner_down;
+  const float height = 0.5f * std::sqrt(2.0f) + 0.5f * std::sqrt(3.0f) - 0.01f;
+  Random random(5);
+  PairCache cache;
+  uint32_t first = 0;
+  int changes_without = 0;
+  for (int frame = 0; frame < 200; ++frame) {
+    const Quat jitter = axisAngle(random.direction(), 2e-4f);
+    const Transform pose{Vec3(0.0f, height, 0.0f) + random.vector(1e-5f), jitter * mirrored};
+    const ContactManifold m = collide(a, edge_up, a, pose, 0.02f, &cache);
+    const ContactManifold forgetful = collide(a, edge_up, a, pose, 0.02f);
+    ASSERT_EQ(m.num_points, 1);
+    if (frame == 0) first = m.points[0].feature;
+    EXPECT_EQ(m.points[0].feature, first);
+    changes_without += forgetful.points[0].feature != first;
+  }
+  EXPECT_GT(changes_without, 20);
+}
+
 TEST(BoxPair, FeatureNamesPersistUnderSmallMotion) {
   const Shape a = box(0.5f, 0.5f, 0.5f);
   Random random(3);

@@ -87,5 +87,32 @@ TEST(CapsulePairs, CapsuleThroughTheMiddleOfABoxIsPushedOutTheShortWay) {
   EXPECT_NEAR(deepest(m), -0.3f, 1e-5f);
 }
 
+TEST(CapsulePairs, CapsuleAlongAnEdgeOfABoxGetsBothEndsOfTheCommonStretch) {
+  const Shape box{Box{Vec3(1.0f, 1.0f, 1.0f)}, {}}, capsule{Capsule{0.6f, 0.2f}, {}};
+  const Vec3 n = Vec3(0.0f, 1.0f, 1.0f).normalized();  // from the edge y = z = 1, along X
+  for (const float shift : {0.0f, 0.7f}) {
+    for (const float turn : {0.0f, 0.01f, -0.02f}) {
+      const Vec3 center = Vec3(shift, 1.0f, 1.0f) + 0.199f * n;
+      const Transform pose{center, axisAngle(n, turn)};
+      const ContactManifold m = collide(box, {}, capsule, pose, 0.01f);
+      ASSERT_EQ(m.num_points, 2) << shift << " " << turn;
+      EXPECT_NEAR((m.normal - n).norm(), 0.0f, 0.01f);
+      const float x0 = m.points[0].local_a.x(), x1 = m.points[1].local_a.x();
+      EXPECT_NEAR(std::min(x0, x1), shift - 0.6f, 2e-3f);
+      EXPECT_NEAR(std::max(x0, x1), std::min(1.0f, shift + 0.6f), 2e-3f);
+      for (int i = 0; i < 2; ++i) EXPECT_NEAR(m.points[i].distance, -0.001f, 1e-4f);
+      expectConsistent(m, {}, pose, 1e-5f);
+    }
+  }
+}
+
+TEST(CapsulePairs, CapsuleAcrossAnEdgeOfABoxGetsOnePoint) {
+  const Shape box{Box{Vec3(1.0f, 1.0f, 1.0f)}, {}}, capsule{Capsule{0.6f, 0.2f}, {}};
+  const Vec3 n = Vec3(0.0f, 1.0f, 1.0f).normalized();
+  const ContactManifold m =
+      collide(box, {}, capsule, {Vec3(0.0f, 1.0f, 1.0f) + 0.199f * n, axisAngle(n, 0.5f)}, 0.01f);
+  EXPECT_EQ(m.num_points, 1);
+}
+
 }  // namespace
 }  // namespace pfx

@@ -1,0 +1,88 @@
+// The solver for islands that defeat sequential impulses: tall stacks, heavy things on light ones, arches.
+//
+// All contacts of the island are solved together by Newton's method on the velocity, with a block-sparse
+// factor in double precision, so that neither the height of a stack nor the ratio of masses limits how well
+// it stands:
+//
+//   for each sub-step: forces -> solve with overlaps pushed apart -> move -> solve again without the push
+//   at the end:        solve for the speeds after impacts
+//
+// The second solve starts from the impulses of the first, so that it ends at rest where the first was in
+// balance. At rest neither needs an iteration. Source as in newton_contact.h; sub-steps and relax pass as in
+// soft_step.h.
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "pfx/low_level/solver/body_elimination.h"
+#include "pfx/low_level/solver/direct_body.h"
+#include "pfx/low_level/solver/newton_contact.h"
+
+namespace pfx {
+
+struct NewtonParams {
+  double h = 1.0 / 240.0;  // s, of a sub-step
+  int substeps = 4;
+  double give = 2e-3;                  // R in units of the inverse effective mass of a row
+  double max_overlap = 1e-3;           // share of the lever of a point that its load presses in at most
+  double push_rate = 0.4;              // share of an overlap that a sub-step takes back
+  double max_push_speed = 3.0;         // m/s
+  double friction_spread = 0.6;        // see ContactSolveParams
+  double restitution_threshold = 0.5;  // m/s
+};
+
+class NewtonIsland {
+ public:
+  // Takes over an island at the start of a step. bodies: indices of states, ascending, with everything that
+  // the constraints name; motions: by entry of bodies, inertia null for bodies that contacts do not move. The
+  // solver_a and solver_b of the constraints are indices of states.
+  void begin(std::span<const RigidState> states, std::span<const RigidBody> rigid_bodies,
+             std::span<const uint32_t> bodies, std::span<const BodyMotion> motions,
+             std::span<const ContactConstraint> constraints, const NewtonParams& params);
+
+  // The whole step. Writes the states of the dynamic bodies and the impulses of the manifolds.
+  void advance(std::span<RigidState> states);
+
+  uint32_t iterations() const { return iterations_; }  // of Newton's method, in the last step
+
+ private:
+  void addContact(const ContactConstraint& constraint);
+  void setStiffness(NewtonPoint& point, const double (&inverse_mass)[2], double load) const;
+  void makeStructure();
+  void startSubstep();
+  void setBias(bool push);
+  void solve();
+  void move();
+  void bounce();
+  void store(std::span<RigidState> states);
+
+  void updateMass();
+  void evaluate(bool fix_radius);
+  double gradient();
+  void factor();
+  void search();
+  double slopeAt(double step) const;
+  double lineSearch(double slope) const;
+  double iterate(int most);
+  void soften(double factor);
+  double* velocityOf(uint32_t body) { return &velocity_[size_t(body) * 6]; }
+
+  NewtonParams params_;
+  uint32_t iterations_ = 0;
+  std::span<const uint32_t> body_index_;  // of the caller; valid during the step
+  std::vector<DirectBody> bodies_;
+  std::vector<TransformDouble> start_;  // poses at the start of the step
+  std::vector<uint32_t> moving_;        // local indices of dynamic bodies; their order is that of the blocks
+  std::vector<uint32_t> block_of_;      // by local index
+  std::vector<NewtonContact> contacts_;
+  std::vector<Link> links_;  // of blocks, by contact that couples two
+  BodyElimination elimination_;
+  std::vector<Mat3d> inertia_;                                           // kg m^2, world axes, by local index
+  std::vector<double> velocity_, free_velocity_, direction_, gradient_;  // six a body, by local index
+  std::vector<double> diagonal_, off_diagonal_, scratch_, x_;
+  double tolerance_ = 0.0;  // m/s
+  bool factored_ = false;
+};
+
+}  // namespace pfx
