@@ -30,7 +30,8 @@ TEST(CharacterCourse, ReachesEveryStateInAMinuteAndRepeatsToTheBit) {
   EXPECT_LT(reading(first, "rider's drift on the turntable"), 1.0) << "mm";
   EXPECT_LT(reading(first, "overlap of two characters"), 20.0) << "mm";
   EXPECT_NEAR(reading(first, "height of the last jump"), reading(first, "v^2 / 2g of a jump"), 0.002);
-  for (const auto& r : first.scene->readings(first.world)) RecordProperty(std::string(r.name), std::to_string(r.value));
+  for (const auto& r : first.scene->readings(first.world))
+    RecordProperty(std::string(r.name), std::to_string(r.value));
 }
 
 TEST(CharacterCourse, APersonTakesOver) {

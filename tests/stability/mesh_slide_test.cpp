@@ -1,4 +1,5 @@
-// ACC-28: bodies that slide over a plane made of triangles, of one mesh or of two, move as they would on a plane.
+// ACC-28: bodies that slide over a plane made of triangles, of one mesh or of two, move as they would on a
+// plane.
 #include <gtest/gtest.h>
 
 #include <array>
@@ -14,19 +15,19 @@ namespace {
 
 struct Slide {
   Geometry shape;
-  float height;    // m, of the centre above the ground at rest
-  float speed;     // m/s
+  float height;  // m, of the centre above the ground at rest
+  float speed;   // m/s
   float friction;
 };
 
 constexpr float kStopped = 0.01f;  // m/s; the jerk of stopping tips a body on any ground
 
 struct Outcome {
-  float vertical = 0.0f;  // m/s, largest after the first quarter second, while it slides
-  float lateral = 0.0f;   // m
-  float speed = 0.0f;     // m/s, at the end
-  float travelled = 0.0f; // m
-  float lowest = 1.0f;    // m, of the centre above its height at rest
+  float vertical = 0.0f;   // m/s, largest after the first quarter second, while it slides
+  float lateral = 0.0f;    // m
+  float speed = 0.0f;      // m/s, at the end
+  float travelled = 0.0f;  // m
+  float lowest = 1.0f;     // m, of the centre above its height at rest
 };
 
 // Each shape of the ground is a body.
@@ -47,7 +48,8 @@ Outcome slide(const Slide& s, std::span<const Shape> ground) {
   for (int i = 0; i < 600 && world.states()[id.index].position.x() < 4.3f; ++i) {
     world.step(dt);
     const RigidState& state = world.states()[id.index];
-    if (i >= 15 && state.linear_velocity.norm() > kStopped) o.vertical = std::max(o.vertical, std::abs(state.linear_velocity.y()));
+    if (i >= 15 && state.linear_velocity.norm() > kStopped)
+      o.vertical = std::max(o.vertical, std::abs(state.linear_velocity.y()));
     o.lateral = std::max(o.lateral, std::abs(state.position.z() - 0.013f));
     o.lowest = std::min(o.lowest, state.position.y() - s.height);
     o.speed = state.linear_velocity.norm();
@@ -56,8 +58,8 @@ Outcome slide(const Slide& s, std::span<const Shape> ground) {
   return o;
 }
 
-// Vertical speeds, m/s. Over a seam the load passes from the contacts with one mesh to those with the other; they give
-// way by 17 micrometres under the weight, of which the body moves a fraction within a step.
+// Vertical speeds, m/s. Over a seam the load passes from the contacts with one mesh to those with the other;
+// they give way by 17 micrometres under the weight, of which the body moves a fraction within a step.
 constexpr float kLevel = 1e-4f, kOverSeam = 2e-4f;
 
 const Geometry kBox = Box{Vec3(0.1f, 0.1f, 0.1f)};
@@ -72,7 +74,8 @@ void expectAsOnAPlane(std::span<const Shape> ground, float level) {
       for (const float friction : {0.0f, 0.5f}) {
         const Slide s{shape, 0.1f, speed, friction};
         const Outcome m = slide(s, ground), p = slide(s, {&plane, 1});
-        SCOPED_TRACE(testing::Message() << "shape " << shape.index() << " speed " << speed << " friction " << friction);
+        SCOPED_TRACE(testing::Message()
+                     << "shape " << shape.index() << " speed " << speed << " friction " << friction);
         EXPECT_LT(m.vertical, level);
         // A body that comes to rest does so somewhere within a step: half mu g dt^2 of distance.
         EXPECT_NEAR(m.travelled, p.travelled, 1e-3f * p.travelled + 0.5f * friction * 9.8f / 3600.0f);
@@ -99,19 +102,23 @@ TEST(MeshSlide, everyShapeSlidesOverTheSeamOfTwoMeshesAsOverAPlane) {
     float x = 0.0f;
     for (size_t k = i; k < i + 3; ++k) x += soup.vertices[soup.indices[k]].x();
     auto& side = sides[x > 0.0f];
-    side.insert(side.end(), soup.indices.begin() + static_cast<long>(i), soup.indices.begin() + static_cast<long>(i) + 3);
+    side.insert(side.end(), soup.indices.begin() + static_cast<long>(i),
+                soup.indices.begin() + static_cast<long>(i) + 3);
   }
   const LargeMesh left = buildLargeMesh(soup.vertices, sides[0]).mesh;
-  // The other half is quantized and lies elsewhere in its own frame: no two coordinates of the seam are the same bits.
+  // The other half is quantized and lies elsewhere in its own frame: no two coordinates of the seam are the
+  // same bits.
   std::vector<Vec3> moved(soup.vertices);
   for (Vec3& v : moved) v += Vec3(3.3f, 0.7f, 1.1f);
   const LargeMesh right = buildLargeMesh(moved, sides[1], {.type = LargeMeshType::QuantizedBvh}).mesh;
-  expectAsOnAPlane(std::array{Shape{&left, {}}, Shape{&right, {Vec3(-3.3f, -0.7f, -1.1f), Quat::Identity()}}}, kOverSeam);
+  expectAsOnAPlane(std::array{Shape{&left, {}}, Shape{&right, {Vec3(-3.3f, -0.7f, -1.1f), Quat::Identity()}}},
+                   kOverSeam);
 }
 
 TEST(MeshSlide, aCapsuleThatSlidesAlongItsAxisDoesNotRollAside) {
   const Shape plane{Box{Vec3(50, 1, 50)}, {Vec3(0, -1, 0), Quat::Identity()}};
-  // It stops after 0.2 s and then lies still for ten: what its contact points lag behind would set it rolling.
+  // It stops after 0.2 s and then lies still for ten: what its contact points lag behind would set it
+  // rolling.
   const Outcome o = slide({kCapsule, 0.1f, 1.0f, 0.5f}, {&plane, 1});
   EXPECT_LT(o.lateral, 1e-4f);
   EXPECT_LT(o.speed, 1e-5f);

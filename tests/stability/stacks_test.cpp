@@ -1,5 +1,5 @@
-// Stacks of the sample scenes over a minute, without sleep: they stand, hardly sink, and overlap by less than a
-// millimetre.
+// Stacks of the sample scenes over a minute, without sleep: they stand, hardly sink, and overlap by less than
+// a millimetre.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -92,7 +92,8 @@ TEST(Stacks, TheStateIsTheSameForAnyNumberOfWorkersAndAnyLaneWidth) {
     return world.stateHash();
   };
   const uint64_t one = hashWith(1, SimdLevel::Sse2);
-  for (const int workers : {1, 2, 3, 4}) EXPECT_EQ(hashWith(workers, SimdLevel::Auto), one) << workers << " workers";
+  for (const int workers : {1, 2, 3, 4})
+    EXPECT_EQ(hashWith(workers, SimdLevel::Auto), one) << workers << " workers";
 }
 
 }  // namespace

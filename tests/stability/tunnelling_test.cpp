@@ -9,8 +9,8 @@ namespace {
 using namespace pfx;
 
 constexpr float kStep = 1.0f / 60.0f;
-constexpr float kRadius = 0.05f;       // m
-constexpr float kSpeed = 100.0f;       // m/s: 33 radii a step
+constexpr float kRadius = 0.05f;  // m
+constexpr float kSpeed = 100.0f;  // m/s: 33 radii a step
 constexpr float kHalfThickness = 0.01f;
 
 const Shape kSphere{Sphere{kRadius}, {}};
@@ -21,8 +21,9 @@ LargeMesh wallMesh(int side, float half_extent) {
   std::vector<uint32_t> indices;
   for (int i = 0; i <= side; ++i)
     for (int k = 0; k <= side; ++k)
-      vertices.push_back(Vec3(0.0f, half_extent * (2.0f * static_cast<float>(i) / static_cast<float>(side) - 1.0f),
-                              half_extent * (2.0f * static_cast<float>(k) / static_cast<float>(side) - 1.0f)));
+      vertices.push_back(
+          Vec3(0.0f, half_extent * (2.0f * static_cast<float>(i) / static_cast<float>(side) - 1.0f),
+               half_extent * (2.0f * static_cast<float>(k) / static_cast<float>(side) - 1.0f)));
   const auto at = [side](int i, int k) { return static_cast<uint32_t>(i * (side + 1) + k); };
   for (int i = 0; i < side; ++i)
     for (int k = 0; k < side; ++k)
@@ -31,13 +32,14 @@ LargeMesh wallMesh(int side, float half_extent) {
   return buildLargeMesh(vertices, indices).mesh;
 }
 
-// Shoots `count` spheres in a grid along +x at whatever stands at x = 0, each from another distance, and counts those
-// that are behind it after half a second.
+// Shoots `count` spheres in a grid along +x at whatever stands at x = 0, each from another distance, and
+// counts those that are behind it after half a second.
 int countPassed(World& world, int count, float wall_speed) {
   std::vector<BodyId> balls;
   const int side = 100;
   for (int i = 0; i < count; ++i) {
-    const float y = 0.24f * static_cast<float>(i % side - side / 2), z = 0.24f * static_cast<float>(i / side - side / 2);
+    const float y = 0.24f * static_cast<float>(i % side - side / 2),
+                z = 0.24f * static_cast<float>(i / side - side / 2);
     const float x = -1.0f - 0.0137f * static_cast<float>(i % 113);
     balls.push_back(world.addBody({.name = "ball",
                                    .pose = {.position = Vec3(x, y + 0.1f, z + 0.1f)},
@@ -48,7 +50,8 @@ int countPassed(World& world, int count, float wall_speed) {
   }
   for (int i = 0; i < 30; ++i) world.step(kStep);
   int passed = 0;
-  for (const BodyId& id : balls) passed += world.states()[id.index].position.x() > wall_speed * 0.5f + 0.5f * kRadius;
+  for (const BodyId& id : balls)
+    passed += world.states()[id.index].position.x() > wall_speed * 0.5f + 0.5f * kRadius;
   return passed;
 }
 

@@ -17,22 +17,15 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// What --solver may choose; what it does not set is as the scene has it.
-struct SolverChoice {
-  const char* name;
-  std::optional<pfx::JointSolver> joints;
-  std::optional<pfx::ContactSolver> contacts;
-};
-constexpr SolverChoice kSolvers[] = {
-    {"auto", {}, {}},                                                    // by island
-    {"soft_step", pfx::JointSolver::Soft, pfx::ContactSolver::Soft},     // sub-stepped soft constraints for all
-    {"direct", pfx::JointSolver::Direct, {}},                            // joints in one sparse system
-    {"newton", {}, pfx::ContactSolver::Newton},                          // contacts of islands by Newton's method
-};
+// Names of contact solvers: sub-stepped soft constraints, and Newton's method island by island.
+constexpr std::pair<const char*, pfx::ContactSolver> kSolvers[] = {{"auto", pfx::ContactSolver::Auto},
+                                                                   {"soft_step", pfx::ContactSolver::Soft},
+                                                                   {"newton", pfx::ContactSolver::Newton}};
 
-const SolverChoice* findSolver(const std::string& name) {
-  const auto found = std::ranges::find(kSolvers, name, &SolverChoice::name);
-  return found == std::end(kSolvers) ? nullptr : found;
+const char* nameOf(pfx::ContactSolver solver) {
+  return std::find_if(std::begin(kSolvers), std::end(kSolvers),
+                      [&](const auto& s) { return s.second == solver; })
+      ->first;
 }
 
 struct Options {
@@ -120,7 +113,7 @@ ordered_json describe(const SceneRun& run, const Measured& m, const Options& opt
                        {"steps", options.steps},
                        {"dt", options.dt},
                        {"substeps", run.world().def().substeps},
-                       {"solver", options.solver},
+                       {"solver", nameOf(run.world().def().contact_solver)},
                        {"threads", options.threads},
                        {"state_hash", hexText(run.stateHash())},
                        {"final", figuresJson(m.final)},
@@ -158,21 +151,27 @@ void printText(const ordered_json& json) {
 void check(const Options& o) {
   if (!(o.dt > 0.0f) || !(o.dt <= 1.0f))
     throw InputError("--dt must be a time in seconds, above 0 and at most 1");
-  if (findSolver(o.solver) == nullptr)
-    throw InputError("unknown solver \"" + o.solver + "\"; known: auto, soft_step, direct, newton");
   if (o.iterations)
-    throw InputError("--iterations: solver " + o.solver + " does not take a number of iterations; raise --substeps instead");
+    throw InputError("--iterations: these solvers choose their own; raise --substeps instead");
+}
+
+pfx::ContactSolver solverNamed(const std::string& name) {
+  std::string known;
+  for (const auto& [solver, value] : kSolvers) {
+    if (name == solver) return value;
+    known += (known.empty() ? "" : ", ") + std::string(solver);
+  }
+  throw InputError("unknown solver \"" + name + "\"; known: " + known);
 }
 
 int measure(const Options& options) {
   check(options);
+  const pfx::ContactSolver solver = solverNamed(options.solver);
   auto results = ordered_json::array();
-  const SolverChoice& solver = *findSolver(options.solver);
   for (const SceneSpec& spec : findTarget(allScenes(), options.target)) {
     SceneRun run(spec, {.dt = options.dt,
                         .substeps = options.substeps,
-                        .joint_solver = solver.joints,
-                        .contact_solver = solver.contacts,
+                        .contact_solver = solver,
                         .threads = options.threads});
     const Measured m = runSteps(run, options);
     results.push_back(describe(run, m, options));
@@ -204,7 +203,7 @@ void addMeasureCommand(CLI::App& app, Action& action) {
   command->add_option("--substeps", options->substeps, "Solver sub-steps a step")->check(CLI::Range(1, 1000));
   command->add_option("--iterations", options->iterations, "Iterations of solvers that iterate")
       ->check(CLI::Range(1, 10000));
-  command->add_option("--solver", options->solver, "auto, soft_step, direct or newton")->capture_default_str();
+  command->add_option("--solver", options->solver, "auto, soft_step or newton")->capture_default_str();
   command->add_option("--threads", options->threads, "Threads; the result is the same for any number")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();

@@ -11,7 +11,6 @@ namespace {
 pfx::WorldDef worldDef(const SceneSpec& spec, const RunSettings& settings) {
   pfx::WorldDef def = spec.world;
   def.substeps = settings.substeps.value_or(def.substeps);
-  def.joint_solver = settings.joint_solver.value_or(def.joint_solver);
   def.contact_solver = settings.contact_solver.value_or(def.contact_solver);
   def.workers = settings.threads;
   return def;

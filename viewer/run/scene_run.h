@@ -13,7 +13,6 @@ namespace viewer {
 struct RunSettings {
   float dt = samples::kTimeStep;  // s, > 0
   std::optional<int> substeps;    // >= 1
-  std::optional<pfx::JointSolver> joint_solver;
   std::optional<pfx::ContactSolver> contact_solver;
   int threads = 1;                // the caller included; does not change the result
 };

@@ -1,6 +1,8 @@
 // The step of a warm world must not touch the heap. Counts every operator new of the process.
 #include <gtest/gtest.h>
 
+#include <algorithm>
+
 #include "pfx/high_level/character/character.h"
 #include "pfx/high_level/world/world.h"
 #include "tests/support/counted_allocations.h"
@@ -17,20 +19,20 @@ void addBox(World& world, const Vec3& position, const Vec3& half_extent, MotionT
                  .mass = 1.0f});
 }
 
-// 64 boxes: a wall of eight rows, or one row for the world that remembers nothing, in which a wall never comes to rest
-// and so goes on finding more contacts than ever before.
+// 64 boxes: a wall of eight rows, or one row for the world that remembers nothing, in which a wall never
+// comes to rest and so goes on finding more contacts than ever before.
 void build(World& world) {
   const int rows = world.def().pipeline == Pipeline::Simple ? 1 : 8;
   addBox(world, Vec3(0.0f, -1.0f, 0.0f), Vec3(100.0f, 1.0f, 20.0f), MotionType::Fixed);
   for (int row = 0; row < rows; ++row)
     for (int i = 0; i < 64 / rows; ++i)
-      addBox(world, Vec3(1.01f * static_cast<float>(i), 0.5f + static_cast<float>(row), 0.0f), Vec3::Constant(0.5f),
-             MotionType::Active);
+      addBox(world, Vec3(1.01f * static_cast<float>(i), 0.5f + static_cast<float>(row), 0.0f),
+             Vec3::Constant(0.5f), MotionType::Active);
 }
 
-class Allocation : public testing::TestWithParam<Pipeline> {};
+class WarmWorld : public testing::TestWithParam<Pipeline> {};
 
-TEST_P(Allocation, AWarmStepDoesNotAllocate) {
+TEST_P(WarmWorld, AWarmStepDoesNotAllocate) {
   WorldDef def;
   def.pipeline = GetParam();
   def.workers = 2;
@@ -67,6 +69,23 @@ TEST(CharacterAllocation, AWarmCharacterDoesNotAllocate) {
   EXPECT_EQ(support::g_allocations.load() - before, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Pipelines, Allocation, testing::Values(Pipeline::Simple, Pipeline::Stable));
+// Islands that are solved by Newton's method keep their factor.
+TEST(Allocation, AWarmColumnDoesNotAllocate) {
+  WorldDef def;
+  def.workers = 2;
+  World world(def);
+  addBox(world, Vec3(0.0f, -1.0f, 0.0f), Vec3(100.0f, 1.0f, 20.0f), MotionType::Fixed);
+  for (int i = 0; i < 48; ++i)
+    addBox(world, Vec3(4.0f * static_cast<float>(i / 16), 0.5f + static_cast<float>(i % 16), 0.0f),
+           Vec3::Constant(0.5f), MotionType::Active);
+  for (int i = 0; i < 120; ++i) world.step(1.0f / 60.0f);
+  const auto stages = world.stages();
+  ASSERT_NE(std::find(stages.begin(), stages.end(), "island solver"), stages.end());
+  const long before = support::g_allocations.load();
+  for (int i = 0; i < 300; ++i) world.step(1.0f / 60.0f);
+  EXPECT_EQ(support::g_allocations.load() - before, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Pipelines, WarmWorld, testing::Values(Pipeline::Simple, Pipeline::Stable));
 
 }  // namespace

@@ -15,6 +15,7 @@
 #include "pfx/low_level/broadphase/tree_broadphase.h"
 #include "pfx/low_level/collision/contact_store.h"
 #include "pfx/low_level/collision/detect.h"
+#include "pfx/low_level/continuous/time_of_impact.h"
 #include "pfx/low_level/island/islands.h"
 #include "pfx/low_level/solver/joint_components.h"
 #include "pfx/low_level/solver/newton_island.h"
@@ -41,6 +42,12 @@ struct Stop {
   float fraction = 1.0f;      // of the step; 1: it is not
   Vec3 point = Vec3::Zero();  // m, world, of the impact
   uint32_t by = 0;            // the body that it hits
+};
+
+// A pair of which one body moves far in a step, and where the two first touch.
+struct FastPair {
+  uint32_t pair;  // index into pairs
+  Impact impact;
 };
 
 struct World::Impl {
@@ -74,6 +81,7 @@ struct World::Impl {
   std::vector<Transform> start_poses;
   std::vector<uint8_t> is_fast;
   std::vector<Stop> stops;
+  std::vector<FastPair> fast_pairs;
   std::vector<BodyPose> stopped_poses;
   bool tree_is_current = false;  // the tree holds the bodies where they are now
 
