@@ -1,5 +1,6 @@
 #include "samples/shared/basic_scenes.h"
 
+#include "samples/all_in_world.h"
 #include "samples/shared/builders.h"
 #include "samples/shared/drift.h"
 
@@ -32,14 +33,14 @@ void addLandscape(World& world) {
 
 namespace {
 
-struct Primitives final : Scene {
+struct Primitives final : Scene, AllInWorld {
   void build(World& world) override {
     addGround(world);
     addPrimitives(world);
   }
 };
 
-struct Landscape final : Scene {
+struct Landscape final : Scene, AllInWorld {
   void build(World& world) override {
     addLandscape(world);
     addPrimitives(world);
@@ -47,7 +48,7 @@ struct Landscape final : Scene {
 };
 
 // Boxes hung one below the other; the lowest one is given a push.
-struct Joints final : Scene {
+struct Joints final : Scene, AllInWorld {
   void build(World& world) override {
     constexpr int kBoxes = 10;
     const BodyId ground = addGround(world);
@@ -77,7 +78,7 @@ struct Joints final : Scene {
 };
 
 // A stack says how far it has come from where it was built.
-struct Stack : Scene {
+struct Stack : Scene, AllInWorld {
   void draw(const World& world, Canvas& canvas) const override {
     const Vec3 above = top_ + Vec3(0.0f, 1.6f, 0.0f);
     canvas.label(above, "drift " + millimetres(drift_.largest(world)));

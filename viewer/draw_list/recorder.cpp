@@ -123,8 +123,9 @@ void Recorder::draw(uint64_t key, std::span<const pfx::SolidInstance> instances)
   const Placement place = found->second;
   list_->append(place.mesh, instances.size(), [&](size_t i) {
     const pfx::SolidInstance& s = instances[i];
-    return Instance{s.pose.position, s.pose.orientation, place.scale,
-                    s.color,         uint32_t(s.finish), pickId(PickKind::Body, s.body)};
+    const Color own = s.body < body_colors.size() ? body_colors[s.body] : 0;
+    return Instance{s.pose.position, s.pose.orientation, place.scale, own ? own : s.color, uint32_t(s.finish),
+                    pickId(PickKind::Body, s.body)};
   });
 }
 
