@@ -1,13 +1,12 @@
 // Counts every allocation of the process. Replaces the global operator new: include it in one file of a program.
 #pragma once
 
-#include <atomic>
 #include <cstdlib>
 #include <new>
 
-namespace support {
+#include "tests/support/allocation_count.h"
 
-inline std::atomic<long> g_allocations{0};
+namespace support {
 
 inline void* countedAllocation(std::size_t size, std::size_t alignment) noexcept {
   ++g_allocations;
