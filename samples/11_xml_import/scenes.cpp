@@ -1,5 +1,6 @@
 // Sample 11_xml_import: scenes that are nothing but files.
 #include "pfx/high_level/scene_file/scene_file.h"
+#include "samples/all_in_world.h"
 #include "samples/registry.h"
 #include "xml_scenes.h"
 
@@ -8,7 +9,7 @@ namespace {
 
 using namespace pfx;
 
-class FileScene final : public Scene {
+class FileScene final : public Scene, public AllInWorld {
  public:
   explicit FileScene(const SceneText& text) : def_(readScene(text)) {}
   void build(World& world) override { buildScene(def_, world); }

@@ -1,4 +1,5 @@
 // Sample 3_sleep: islands at rest fall asleep and cost nothing, until something touches one of their bodies.
+#include "samples/all_in_world.h"
 #include "samples/registry.h"
 #include "samples/shared/basic_scenes.h"
 #include "samples/shared/builders.h"
@@ -9,7 +10,7 @@ namespace {
 using namespace pfx;
 
 // Nine walls; a ball thrown at the middle one after all have fallen asleep wakes that one alone.
-struct Walls final : Scene {
+struct Walls final : Scene, AllInWorld {
   static constexpr uint64_t kThrowStep = 300;
 
   void build(World& world) override {

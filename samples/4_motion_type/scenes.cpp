@@ -5,28 +5,12 @@
 #include "pfx/base_level/math/trig.h"
 #include "samples/registry.h"
 #include "samples/shared/builders.h"
+#include "samples/shared/drift.h"
 
 namespace samples {
 namespace {
 
 using namespace pfx;
-
-// m, farthest that one of the bodies [first, first + count) has moved from where it was built.
-struct Displacement {
-  uint32_t first = 0;
-  std::vector<Vec3> start;
-
-  void watch(const World& world, uint32_t first_body) {
-    first = first_body;
-    for (uint32_t i = first; i < world.states().size(); ++i) start.push_back(world.states()[i].position);
-  }
-  double largest(const World& world) const {
-    double most = 0.0;
-    for (uint32_t i = 0; i < start.size(); ++i)
-      most = std::max(most, static_cast<double>((world.states()[first + i].position - start[i]).norm()));
-    return most;
-  }
-};
 
 // A bar turned from outside sweeps through a wall. It never deviates, whatever it hits.
 struct Keyframe final : Scene {
@@ -38,7 +22,7 @@ struct Keyframe final : Scene {
                           .shapes = {shape(Box{Vec3(5.0f, 0.25f, 0.5f)})}});
     const auto first = static_cast<uint32_t>(world.states().size());
     addWall(world, Vec3(-3.0f, 0.0f, 0.0f), {.rows = 5});
-    wall_.watch(world, first);
+    wall_ = Drift(world, first);
   }
 
   void beforeStep(World& world, float dt) override {
@@ -53,14 +37,14 @@ struct Keyframe final : Scene {
     const Transform now = world.states()[bar_.index].pose(), told = pose();
     const double off = (now.apply(Vec3(5.0f, 0.0f, 0.0f)) - told.apply(Vec3(5.0f, 0.0f, 0.0f))).norm();
     return {{"bar off its path", "mm", 1e3 * off, 1.0},
-            {"farthest box of the wall", "m", wall_.largest(world)}};
+            {"farthest box of the wall", "m", static_cast<double>(wall_.largest(world))}};
   }
 
  private:
   Transform pose() const { return {Vec3(0.0f, 2.0f, 0.0f), rotation(Vec3::UnitY(), angle_)}; }
 
   BodyId bar_;
-  Displacement wall_;
+  Drift wall_;
   float angle_ = 0.5f * kPi, turn_per_step_ = 0.02f;
 };
 
@@ -84,7 +68,7 @@ struct OneWay final : Scene {
                       .params = BallJointParams{.anchor_point = hinge, .damping = 0.002f}});
       const auto first = static_cast<uint32_t>(world.states().size());
       addWall(world, Vec3(0.0f, 0.0f, z), {.rows = 5});
-      walls_[one_way].watch(world, first);
+      walls_[one_way] = Drift(world, first);
       bars_[one_way] = bar;
     }
   }
@@ -102,13 +86,13 @@ struct OneWay final : Scene {
     return {{"mass of a bar", "kg", &mass_, 1.0f, 100.0f, Parameter::Takes::OnRestart}};
   }
   std::vector<Reading> readings(const World& world) const override {
-    return {{"wall of the one-way bar moved", "m", walls_[true].largest(world), 0.01},
-            {"wall of the active bar moved", "m", walls_[false].largest(world)}};
+    return {{"wall of the one-way bar moved", "m", static_cast<double>(walls_[true].largest(world)), 0.01},
+            {"wall of the active bar moved", "m", static_cast<double>(walls_[false].largest(world))}};
   }
 
  private:
   BodyId bars_[2];
-  Displacement walls_[2];
+  Drift walls_[2];
   float mass_ = 15.0f;
 };
 

@@ -1,6 +1,8 @@
 #include "samples/shared/basic_scenes.h"
 
+#include "samples/all_in_world.h"
 #include "samples/shared/builders.h"
+#include "samples/shared/drift.h"
 
 namespace samples {
 
@@ -31,14 +33,14 @@ void addLandscape(World& world) {
 
 namespace {
 
-struct Primitives final : Scene {
+struct Primitives final : Scene, AllInWorld {
   void build(World& world) override {
     addGround(world);
     addPrimitives(world);
   }
 };
 
-struct Landscape final : Scene {
+struct Landscape final : Scene, AllInWorld {
   void build(World& world) override {
     addLandscape(world);
     addPrimitives(world);
@@ -46,7 +48,7 @@ struct Landscape final : Scene {
 };
 
 // Boxes hung one below the other; the lowest one is given a push.
-struct Joints final : Scene {
+struct Joints final : Scene, AllInWorld {
   void build(World& world) override {
     constexpr int kBoxes = 10;
     const BodyId ground = addGround(world);
@@ -75,17 +77,40 @@ struct Joints final : Scene {
   }
 };
 
-struct Tower final : Scene {
+// A stack says how far it has come from where it was built.
+struct Stack : Scene, AllInWorld {
+  void draw(const World& world, Canvas& canvas) const override {
+    const Vec3 above = top_ + Vec3(0.0f, 1.6f, 0.0f);
+    canvas.label(above, "drift " + millimetres(drift_.largest(world)));
+  }
+  std::vector<Reading> readings(const World& world) const override {
+    return {{"largest drift of a box", "mm", 1e3 * static_cast<double>(drift_.largest(world))}};
+  }
+
+ protected:
+  void watch(const World& world) {
+    drift_ = Drift(world);
+    top_ = Vec3(0.0f, world.states().back().position.y(), 0.0f);
+  }
+
+ private:
+  Drift drift_;
+  Vec3 top_ = Vec3::Zero();
+};
+
+struct Tower final : Stack {
   void build(World& world) override {
     addGround(world);
     addTower(world, {});
+    watch(world);
   }
 };
 
-struct Pyramid final : Scene {
+struct Pyramid final : Stack {
   void build(World& world) override {
     addGround(world);
     addPyramid(world, {});
+    watch(world);
   }
 };
 
@@ -101,8 +126,8 @@ std::vector<SceneEntry> basicScenes(std::string_view sample, const WorldDef& wor
       {.sample = sample,
        .name = "primitives",
        .shows = "each kind of shape falls, rolls or tips, and comes to rest",
-       .camera = {.target = Vec3(0.0f, 2.0f, 1.0f), .distance = 21.0f, .yaw_deg = 28.0f, .pitch_deg = 22.0f},
-       .frames = {30, 90, 360},
+       .camera = {.target = Vec3(0.0f, 4.4f, 1.0f), .distance = 26.0f, .yaw_deg = 28.0f, .pitch_deg = 18.0f},
+       .frames = {50, 110, 360},
        .world = world,
        .make = make<Primitives>},
       {.sample = sample,

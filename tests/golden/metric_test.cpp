@@ -3,8 +3,6 @@
 
 #include <gtest/gtest.h>
 
-#include <chrono>
-
 #include "pictures.h"
 #include "viewer/image/flip.h"
 #include "viewer/image/verdict.h"
@@ -41,19 +39,6 @@ TEST(Metric, BlocksAtTheBorderAreAveragedOverThePixelsTheyHave) {
 TEST(Metric, RefusesImagesOfDifferentSize) {
   EXPECT_THROW(measureDifference(flat(8, 8, 0, 0, 0), flat(8, 9, 0, 0, 0)), std::invalid_argument);
   EXPECT_THROW(measureFlip(flat(8, 8, 0, 0, 0), flat(9, 8, 0, 0, 0)), std::invalid_argument);
-}
-
-TEST(Metric, ComparesA640x360PictureInUnderFiveMilliseconds) {
-  const Image a = drawPicture(Change::None), b = drawPicture(Change::RoundingNoise);
-  double best = 1e9;  // the best of several runs: others share the machine
-  for (int run = 0; run < 10; ++run) {
-    const auto start = std::chrono::steady_clock::now();
-    const ImageDifference d = measureDifference(a, b);
-    const std::chrono::duration<double, std::milli> time = std::chrono::steady_clock::now() - start;
-    EXPECT_EQ(d.max_channel, 1);
-    best = std::min(best, time.count());
-  }
-  EXPECT_LT(best, 5.0);
 }
 
 TEST(Flip, IsZeroForEqualPictures) {

@@ -21,12 +21,25 @@ pfx::World fallingSpheres(int count) {
   return world;
 }
 
+struct FallScene final : samples::Scene {
+  void build(pfx::World& world) override { world = fallingSpheres(3); }
+};
+
 std::vector<uint8_t> recordFall(int steps) {
-  pfx::World world = fallingSpheres(3);
-  RecordingWriter writer({"1_simple/falling", 1.0f / 60.0f, 4});
+  SceneSpec spec;
+  spec.sample = "1_simple", spec.name = "falling";
+  spec.make = [] { return std::make_unique<FallScene>(); };
+  SceneRun run(spec);
+  RecordingWriter writer({.target = spec.target(),
+                          .dt = 1.0f / 60.0f,
+                          .substeps = 4,
+                          .parameters = {2.5f},
+                          .inputs = {{1, ThrowBall{pfx::Vec3(1, 2, 3), pfx::Vec3(4, 5, 6), 0.5f}},
+                                     {1, Pull{2, pfx::Vec3(1, 0, 0), pfx::Vec3(0, 9, 0)}},
+                                     {4, samples::Controls{.right = 1.0f, .heading = 2.0f, .jump = true}}}});
   for (int i = 0; i <= steps; ++i) {
-    if (i > 0) world.step(1.0f / 60.0f);
-    writer.add(world);
+    run.stepTo(uint64_t(i));
+    writer.add(captureFrame(run));
   }
   return writer.bytes();
 }
@@ -47,6 +60,20 @@ TEST(Recording, EveryFrameComesBackInAnyOrder) {
   pfx::World other = fallingSpheres(3);
   applyFrame(other, frame);
   EXPECT_EQ(other.stateHash(), reference.stateHash());
+}
+
+TEST(Recording, InputsAndParametersComeBack) {
+  const Recording recording(recordFall(2), "fall");
+  const RecordingHead& head = recording.head();
+  EXPECT_EQ(head.parameters, std::vector<float>{2.5f});
+  ASSERT_EQ(head.inputs.size(), 3u);
+  EXPECT_EQ(std::get<ThrowBall>(head.inputs[0].what).velocity, pfx::Vec3(4, 5, 6));
+  EXPECT_EQ(std::get<Pull>(head.inputs[1].what).target, pfx::Vec3(0, 9, 0));
+  EXPECT_EQ(std::get<Pull>(head.inputs[1].what).body, 2u);
+  EXPECT_EQ(head.inputs[2].step, 4u);
+  const auto& steered = std::get<samples::Controls>(head.inputs[2].what);
+  EXPECT_EQ(steered.heading, 2.0f);
+  EXPECT_TRUE(steered.jump && !steered.run && !steered.crouch);
 }
 
 TEST(Recording, AnotherNumberOfBodiesIsAnError) {

@@ -86,7 +86,7 @@ class BrowserTest(unittest.TestCase):
 
     def picture(self):
         """The screen without the time-dependent lower edge."""
-        return subprocess.run(["import", "-window", "root", "-crop", "740x700+230+10", "rgb:-"], env=self.env,
+        return subprocess.run(["import", "-window", "root", "-crop", "700x700+230+10", "rgb:-"], env=self.env,
                               capture_output=True, check=True).stdout
 
     def still_picture(self):
@@ -144,7 +144,9 @@ class BrowserTest(unittest.TestCase):
             self.wait(lambda: self.picture() == plain)
         self.xdo("mousemove", "640", "480")
         time.sleep(1)
-        self.xdo("click", "1")
+        self.xdo("mousedown", "1")
+        time.sleep(0.4)
+        self.xdo("mouseup", "1")
         self.wait(lambda: self.picture() != plain)
         self.key("Escape")
         self.wait(lambda: self.picture() == plain)
@@ -164,6 +166,127 @@ class BrowserTest(unittest.TestCase):
         self.wait(lambda: self.picture() != plain)
         self.key("Home")
         self.wait(lambda: self.picture() == plain)
+
+    def click(self, x, y):
+        self.xdo("mousemove", str(x), str(y))
+        time.sleep(1)
+        self.xdo("mousedown", "1")
+        time.sleep(0.4)
+        self.xdo("mouseup", "1")
+
+    def open_scene(self, name):
+        self.key("ctrl+o")
+        self.xdo("type", "--delay", "120", name)
+        time.sleep(1)
+        self.key("Return")
+        self.wait(lambda: name in self.title())
+
+    def selection(self):
+        """What the title says is selected, or nothing."""
+        parts = self.title().split(" - ")
+        known = ("paused", "recording", "replay", "Vitrine")
+        return [p for p in parts[1:] if not p.startswith(("step", "diverged")) and p not in known]
+
+    def test_a_click_selects_a_body_and_names_it(self):
+        self.pause()
+        self.assertEqual(self.selection(), [])
+        self.click(640, 480)
+        self.wait(lambda: self.selection() and re.match(r"(box|body|ground)", self.selection()[0]))
+        self.key("Escape")
+        self.wait(lambda: not self.selection())
+
+    def test_a_click_on_a_large_mesh_names_the_triangle(self):
+        self.open_scene("2_stable/landscape")
+        self.wait(lambda: self.step() > 5)
+        self.pause()
+        self.click(420, 640)
+        self.wait(lambda: self.selection() and re.match(r"triangle \d+ of landscape", self.selection()[0]))
+        first = self.selection()[0]
+        self.click(820, 620)
+        self.wait(lambda: self.selection() and self.selection()[0] != first)
+
+    def test_every_overlay_changes_the_picture_and_can_be_taken_back(self):
+        """The check boxes of the tab that shows them all, one by one and then together."""
+        self.open_scene("2_stable/landscape")
+        self.wait(lambda: self.step() > 200)
+        self.pause()
+        self.click(1160, 26)
+        time.sleep(1)
+        last, changes = self.still_picture(), 0
+        for y in range(50, 420, 12):
+            for x in (1003, 1121):
+                self.xdo("mousemove", str(x), str(y))
+                time.sleep(0.15)
+                self.xdo("mousedown", "1")
+                time.sleep(0.15)
+                self.xdo("mouseup", "1")
+                time.sleep(0.4)
+                self.xdo("mousemove", "1100", "790")
+                time.sleep(0.3)
+                now = self.picture()
+                changes += now != last
+                last = now
+        self.assertIsNone(self.browser.poll(), "the browser ended")
+        # What does not move has no velocity, and this scene has no joints.
+        self.assertGreater(changes, 15)
+
+    def test_stepping_back_over_a_throw_takes_it_back(self):
+        self.pause()
+        at = self.step()
+        self.xdo("mousemove", "640", "420")
+        time.sleep(1)
+        self.key("b")
+        self.wait(lambda: self.step() > at + 3)
+        self.pause()
+        for _ in range(200):
+            if self.step() <= at:
+                break
+            self.key("shift+comma")
+        self.wait(lambda: self.step() <= at)
+        self.key("space")
+        self.wait(lambda: self.step() > at + 3)
+
+    def test_a_recording_is_written_and_repeated(self):
+        self.key("ctrl+r")
+        self.wait(lambda: "recording" in self.title())
+        at = self.step()
+        self.wait(lambda: self.step() > at + 20)
+        self.pause()
+        self.key("ctrl+r")
+        self.wait(lambda: list(self.folder.glob("2_stable_tower_*.rec")))
+        file = next(self.folder.glob("2_stable_tower_*.rec"))
+        self.key("ctrl+q")
+        self.browser.wait(PATIENCE)
+        check = subprocess.run([PROGRAM, "replay", str(file)], env=self.env, capture_output=True, text=True)
+        self.assertEqual(check.returncode, 0, check.stderr)
+        self.start(str(file))
+        self.wait(lambda: "replay" in self.title())
+        first = self.step()
+        self.key("period")
+        self.wait(lambda: self.step() == first + 1)
+        self.key("space")
+        self.wait(lambda: self.step() > first + 15)
+        self.assertNotIn("diverged", self.title())
+
+    def test_a_hundred_scene_switches_leave_nothing_behind(self):
+        def memory():
+            status = pathlib.Path(f"/proc/{self.browser.pid}/status").read_text()
+            return int(re.search(r"VmRSS:\s+(\d+)", status).group(1))
+
+        def switch(times):
+            for _ in range(times):
+                before = self.title().split(" - ")[0]
+                self.xdo("key", "bracketright")
+                self.wait(lambda: self.title().split(" - ")[0] != before)
+
+        switch(50)
+        settled = memory()
+        switch(50)
+        self.assertIsNone(self.browser.poll(), "the browser ended: errors of GL end it")
+        # What scenes and drivers keep has been kept after the first round of all scenes.
+        self.assertLess(memory() - settled, 60000, "kB more after fifty switches")
+        self.key("ctrl+q")
+        self.assertEqual(self.browser.wait(PATIENCE), 0)
 
     def test_a_body_can_be_pulled_with_the_mouse(self):
         self.pause()

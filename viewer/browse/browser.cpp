@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "viewer/browse/ui_style.h"
+#include "viewer/file.h"
 #include "viewer/image/png.h"
 #include "viewer/input_error.h"
 #include "viewer/run/list_canvas.h"
@@ -30,6 +31,8 @@ std::unique_ptr<Window> open(const BrowseSettings& settings, const std::string& 
   }
 }
 
+bool isRecordingFile(const std::string& target) { return std::filesystem::path(target).extension() == ".rec"; }
+
 // Where there is a graphics processor four samples a pixel cost nothing.
 Quality qualityFor(GlContext& context) {
   const std::string rasterizer = Renderer::rasterizer(context);
@@ -48,7 +51,8 @@ Browser::Browser(const BrowseOptions& options)
                        [&](const SceneSpec& s) { return s.target() == target; });
   };
   std::string target = known(settings_.target) ? settings_.target : scenes_.front().target();
-  if (!options.target.empty()) target = findTarget(scenes_, options.target).front().target();
+  const bool recorded = isRecordingFile(options.target);
+  if (!options.target.empty() && !recorded) target = findTarget(scenes_, options.target).front().target();
   window_ = open(settings_, target);
   ImGui::GetIO().IniFilename = nullptr;
   setKeyMap(ImGui::GetIO());
@@ -57,7 +61,7 @@ Browser::Browser(const BrowseOptions& options)
       *window_,
       RenderParams{.quality = qualityFor(*window_), .wire = false, .shader_dir = options.shader_dir});
   session_.speed = settings_.speed;
-  load(target);
+  recorded ? openRecording(options.target) : load(target);
 }
 
 void Browser::load(const std::string& target) {
@@ -65,18 +69,31 @@ void Browser::load(const std::string& target) {
       std::find_if(scenes_.begin(), scenes_.end(), [&](const SceneSpec& s) { return s.target() == target; });
   if (spec == scenes_.end()) return;
   try {
-    session_.settings.substeps.reset();
+    session_.settings = {.threads = session_.settings.threads};
     session_.load(*spec);
   } catch (const std::exception& error) {
     say(target + ": " + error.what());
     return;
   }
   settings_.target = target;
-  camera_ = {.pose = spec->camera, .orthographic = false};
+  showScene();
+  session_.paused = false;
+}
+
+void Browser::openRecording(const std::string& file) {
+  session_.open(Recording::read(file));
+  showScene();
+  session_.paused = true;
+  say(std::to_string(session_.lastStep() - session_.firstStep() + 1) + " recorded steps of " +
+      session_.spec().target());
+}
+
+void Browser::showScene() {
+  camera_ = {.pose = session_.spec().camera, .orthographic = false};
   selected_ = {};
   follow_ = false;
+  controls_ = {};
   view_ = std::make_unique<WorldView>(list_);
-  session_.paused = false;
 }
 
 void Browser::restart() {
@@ -91,7 +108,9 @@ void Browser::restart() {
 std::string Browser::title() const {
   const std::string selected = titleOf(session_.world(), selected_);
   return session_.spec().target() + " - step " + std::to_string(session_.step()) +
-         (session_.paused ? " - paused" : "") + (selected.empty() ? "" : " - " + selected) + " - Vitrine";
+         (session_.paused ? " - paused" : "") + (session_.isReplay() ? " - replay" : "") +
+         (session_.divergence() ? " - diverged at " + std::to_string(*session_.divergence()) : "") +
+         (session_.isRecording() ? " - recording" : "") + (selected.empty() ? "" : " - " + selected) + " - Vitrine";
 }
 
 void Browser::record() {
@@ -100,7 +119,11 @@ void Browser::record() {
   if (const pfx::Aabb box = boundsOf(session_.world(), selected_); follow_ && box.min.x() <= box.max.x())
     camera_.pose.target = box.center();
   list_.camera = camera_.camera();
-  view_->add(session_.world(), settings_.overlays);
+  ViewExtras extras;
+  if (settings_.overlays.selection_only) extras.selected = selectedBodies();
+  const Trails trails = settings_.overlays.trails ? recentTrails() : Trails();
+  extras.trails = &trails;
+  view_->add(session_.world(), settings_.overlays, extras);
   if (selected_.kind == PickKind::Triangle)
     view_->addTriangle(session_.world(), selected_.body.index, selected_.facet, kSelectedColor);
   addHovered();
@@ -113,6 +136,24 @@ void Browser::record() {
   }
   list_.scale_bar = !settings_.show_ui;
   list_.end();
+}
+
+std::vector<uint8_t> Browser::selectedBodies() const {
+  if (selected_.kind == PickKind::Nothing) return {};
+  std::vector<uint8_t> selected(session_.world().states().size(), 0);
+  for (uint32_t body : bodiesOf(session_.world(), selected_)) selected[body] = 1;
+  return selected;
+}
+
+Trails Browser::recentTrails() const {
+  Trails trails;
+  for (uint64_t step = session_.step() > kTrailSteps ? session_.step() - kTrailSteps : 0; step <= session_.step();
+       ++step)
+    if (const RecordedFrame* frame = session_.remembered(step)) {
+      trails.emplace_back();
+      for (const RecordedBody& body : frame->bodies) trails.back().push_back(body.position);
+    }
+  return trails;
 }
 
 // The triangle of a large mesh under the mouse, with its numbers beside it.
@@ -137,7 +178,7 @@ FrameInput Browser::frameInput() const {
 }
 
 void Browser::layOutSide(const PanelArea& area) {
-  SideState state{&settings_.overlays, &session_.settings, selected_};
+  SideState state{&settings_.overlays, selected_};
   if (selected_.kind == PickKind::Triangle) {
     const pfx::LargeMesh& mesh = *meshOfBody(session_.world(), selected_.body.index)->mesh;
     const uint32_t island = pfx::islandOf(mesh, selected_.facet);
@@ -145,6 +186,7 @@ void Browser::layOutSide(const PanelArea& area) {
   }
   state.show = std::exchange(show_tab_, SideTab::Same);
   const SideEdit edit = sidePanel(area, session_, state);
+  for (const SceneInput& input : edit.inputs) session_.give(input);
   if (edit.restart) restart();
   if (edit.inspector.mark) view_->mark(session_.world(), edit.inspector.mark->triangle, edit.inspector.mark->what);
   if (edit.inspector.selected) select(*edit.inspector.selected);
@@ -165,7 +207,7 @@ void Browser::layOutPanels() {
     const float sides = h - bar - 3.0f * gap - (drawer > 0.0f ? drawer + gap : 0.0f);
     if (const auto target =
             sceneListPanel({gap, gap, left, sides}, scenes_, session_.spec().target(), list_state_))
-      load(*target);
+      requestLoad(*target);
     layOutSide({w - right - gap, gap, right, sides});
     const TransportEdit transport = transportPanel({gap, h - bar - gap, w - 2.0f * gap, bar}, session_);
     if (transport.command) execute(*transport.command);
@@ -177,7 +219,10 @@ void Browser::layOutPanels() {
     if (drawer > 0.0f) costsPanel({gap, h - bar - drawer - 2.0f * gap, w - 2.0f * gap, drawer}, session_);
   }
   if (help_) helpPanel({0.0f, 0.0f, w, h}, help_);
-  if (message_left_ > 0.0f) messagePanel({0.0f, 0.0f, w, h - 4.0f * unit}, message_);
+  if (!pending_.empty())
+    messagePanel({0.0f, 0.0f, w, h - 4.0f * unit}, "building " + pending_ + " ...");
+  else if (message_left_ > 0.0f)
+    messagePanel({0.0f, 0.0f, w, h - 4.0f * unit}, message_);
 }
 
 void Browser::saveScreenshot() {
@@ -191,6 +236,34 @@ void Browser::saveScreenshot() {
   }
 }
 
+void Browser::toggleRecording() {
+  if (!session_.isRecording()) {
+    session_.startRecording();
+    say("recording");
+    return;
+  }
+  const auto path = options_.pictures / (session_.spec().sample + "_" + session_.spec().name + "_" +
+                                         std::to_string(session_.step()) + ".rec");
+  try {
+    std::filesystem::create_directories(options_.pictures);
+    writeFile(path, session_.stopRecording());
+    say("saved " + path.string());
+  } catch (const std::exception& error) {
+    say(error.what());
+  }
+}
+
+// A scene may take seconds to build: what is being done is on the screen before it begins.
+void Browser::loadPending() {
+  if (pending_.empty()) return;
+  if (!pending_shown_) {
+    pending_shown_ = true;
+    return;
+  }
+  load(std::exchange(pending_, ""));
+  pending_shown_ = false;
+}
+
 void Browser::drawFrame(const UiInput::Frame& input, float dt) {
   feed(ImGui::GetIO(), input, {width_, height_, std::max(dt, 1e-4f)});
   ImGui::NewFrame();
@@ -198,6 +271,7 @@ void Browser::drawFrame(const UiInput::Frame& input, float dt) {
   ImGui::Render();
   handleKeys(input, dt);
   handleMouse(input);
+  loadPending();
   session_.advance(dt);
   record();
   FrameInput frame = frameInput();
@@ -222,7 +296,7 @@ int Browser::run() {
     width_ = std::clamp(input.width, 1, 8192);
     height_ = std::clamp(input.height, 1, 8192);
     const bool busy = !session_.paused || resized || moved || input_.waiting() || !input.characters.empty() ||
-                      input.wheel_y != 0.0f || drag_ != DragMode::None || message_left_ > 0.0f ||
+                      input.wheel_y != 0.0f || drag_ != DragMode::None || message_left_ > 0.0f || !pending_.empty() ||
                       !input.keys.empty();
     idle = busy ? 0 : idle + 1;
     const auto now = Clock::now();

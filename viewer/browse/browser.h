@@ -38,9 +38,16 @@ class Browser {
   void layOutSide(const PanelArea& area);
   void record();
   void load(const std::string& target);
+  void requestLoad(const std::string& target) { pending_ = target, pending_shown_ = false; }
+  void loadPending();
+  void openRecording(const std::string& file);
+  void showScene();
   void restart();
   void say(const std::string& text) { message_ = text, message_left_ = 3.0f; }
   void saveScreenshot();
+  void toggleRecording();
+  bool steers() const { return steering_ && session_.scene().isControlled(); }
+  void steer(const UiInput::Frame& input);
   std::string title() const;
 
   // Keys and mouse.
@@ -58,6 +65,8 @@ class Browser {
   Ray mouseRay(float x, float y) const;
   void select(const Selection& selection);
   void addHovered();
+  std::vector<uint8_t> selectedBodies() const;
+  Trails recentTrails() const;
   FrameInput frameInput() const;
 
   enum class DragMode { None, Orbit, Pan, Pull };
@@ -77,11 +86,14 @@ class Browser {
   SceneListState list_state_;
   Selection selected_;
   SideTab show_tab_ = SideTab::Same;  // to bring to the front in the next frame
-  bool follow_ = false, help_ = false, quit_ = false, screenshot_ = false;
+  bool follow_ = false, help_ = false, quit_ = false, screenshot_ = false, steering_ = true;
+  samples::Controls controls_;  // that were given last
   DragMode drag_ = DragMode::None;
   float drag_start_x_ = 0.0f, drag_start_y_ = 0.0f, mouse_x_ = 0.0f, mouse_y_ = 0.0f;
   float pull_depth_ = 0.0f;  // m along the view
   int width_ = 0, height_ = 0;
+  std::string pending_;  // target that is to be loaded as soon as the screen says so
+  bool pending_shown_ = false;
   std::string message_;
   float message_left_ = 0.0f;  // s
   std::vector<int> command_keys_;  // held keys that were pressed together with Shift or Ctrl

@@ -1,6 +1,7 @@
 // What keys and mouse do in the browser.
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 #include "pfx/base_level/shape/aabb.h"
 #include "viewer/browse/browser.h"
@@ -11,6 +12,10 @@ namespace {
 
 constexpr float kClickRadius = 4.0f;  // px, the mouse may move so far between press and release of a click
 constexpr float kFlySpeed = 0.9f;     // distances to the target a second
+bool isSteeringKey(int key) {
+  return key == 'W' || key == 'A' || key == 'S' || key == 'D' || key == key::kSpace;
+}
+
 constexpr float kThrowSpeed = 25.0f;  // m/s
 
 pfx::Aabb bodyBounds(const pfx::World& world, uint32_t body) {
@@ -36,13 +41,16 @@ void Browser::handleKeys(const UiInput::Frame& input, float dt) {
   std::erase_if(command_keys_, [&](int key) { return !input.isDown(key); });
   for (const KeyEvent& event : input.keys) {
     if (event.shift || event.control) command_keys_.push_back(event.key);
-    const auto command = commandOf(event);
+    const bool steered = steers() && isSteeringKey(event.key);
+    const auto command = steered ? std::nullopt : commandOf(event);
     // While text is being entered only keys that cannot be part of it are ours.
     if (command &&
         (!ImGui::GetIO().WantTextInput || event.control || event.key == key::kF1 || event.key == key::kF12))
       execute(*command);
   }
-  if (ImGui::GetIO().WantTextInput || input.control || input.shift) return;
+  if (ImGui::GetIO().WantTextInput) return;
+  if (steers()) return steer(input);
+  if (input.control || input.shift) return;
   pfx::Vec3 way = pfx::Vec3::Zero();
   const auto flies = [&](int key) {
     return float(input.isDown(key) && std::find(command_keys_.begin(), command_keys_.end(), key) == command_keys_.end());
@@ -50,6 +58,24 @@ void Browser::handleKeys(const UiInput::Frame& input, float dt) {
   const auto pushed = [&](int plus, int minus) { return flies(plus) - flies(minus); };
   way << pushed('D', 'A'), pushed('E', 'Q'), pushed('W', 'S');
   if (!way.isZero()) camera_.fly(kFlySpeed * dt * way);
+}
+
+void Browser::steer(const UiInput::Frame& input) {
+  const auto pushed = [&](int plus, int minus) { return float(input.isDown(plus)) - float(input.isDown(minus)); };
+  const samples::Controls now = {.right = pushed('D', 'A'),
+                                 .forward = pushed('W', 'S'),
+                                 .heading = camera_.pose.yaw_deg * std::numbers::pi_v<float> / 180.0f,
+                                 .run = input.shift,
+                                 .jump = input.isDown(key::kSpace),
+                                 .crouch = input.control};
+  const auto same = [](const samples::Controls& a, const samples::Controls& b) {
+    return a.right == b.right && a.forward == b.forward && a.heading == b.heading && a.run == b.run &&
+           a.jump == b.jump && a.crouch == b.crouch;
+  };
+  // The scene follows its own script until somebody steers.
+  const bool untouched = same(controls_, {}) && now.right == 0.0f && now.forward == 0.0f && !now.jump;
+  if (session_.paused || untouched || same(now, controls_)) return;
+  session_.give(controls_ = now);
 }
 
 void Browser::handleMouse(const UiInput::Frame& input) {
@@ -155,6 +181,13 @@ void Browser::execute(BrowseCommand command) {
     case BrowseCommand::Throw:
       throwBall();
       break;
+    case BrowseCommand::Record:
+      toggleRecording();
+      break;
+    case BrowseCommand::Steer:
+      steering_ = !steering_;
+      say(steering_ ? "keys steer the scene, where it can be steered" : "keys fly the camera");
+      break;
     case BrowseCommand::Screenshot:
       screenshot_ = true;
       break;
@@ -238,7 +271,7 @@ void Browser::changeScene(int by) {
   const auto at = std::find_if(scenes_.begin(), scenes_.end(),
                                [&](const SceneSpec& s) { return s.target() == session_.spec().target(); });
   const int count = int(scenes_.size()), index = int(at - scenes_.begin());
-  load(scenes_[size_t((index + by + count) % count)].target());
+  requestLoad(scenes_[size_t((index + by + count) % count)].target());
 }
 
 void Browser::frameSelection() {
@@ -250,7 +283,7 @@ void Browser::frameSelection() {
 void Browser::throwBall() {
   const PickRay ray = pickRay(camera_.camera(), mouse_x_, mouse_y_, width_, height_);
   const float radius = std::clamp(0.02f * camera_.pose.distance, 0.05f, 0.6f);
-  session_.throwBall(ray.origin + 4.0f * radius * ray.direction, kThrowSpeed * ray.direction, radius);
+  session_.give(ThrowBall{ray.origin + 4.0f * radius * ray.direction, kThrowSpeed * ray.direction, radius});
   session_.paused = false;
 }
 

@@ -35,6 +35,9 @@ std::span<const KeyBinding> keyBindings() {
       KeyBinding{ToggleJoints, 'J', false, true, "Shift+J", "show joints"},
       KeyBinding{ToggleVelocity, 'V', false, true, "Shift+V", "show velocities"},
       KeyBinding{ToggleWorld, 'W', false, true, "Shift+W", "show the box of the world"},
+      KeyBinding{Pause, 'P', false, false, "P", "the same, also while Space jumps"},
+      KeyBinding{Steer, 'G', false, false, "G", "steer the scene, or fly the camera"},
+      KeyBinding{Record, 'R', true, false, "Ctrl+R", "record every step, or stop"},
       KeyBinding{Screenshot, key::kF12, false, false, "F12", "save a picture"},
       KeyBinding{ToggleUi, key::kTab, false, false, "Tab", "hide or show all panels"},
       KeyBinding{ToggleCosts, 'M', false, false, "M", "hide or show the costs"},
@@ -55,12 +58,13 @@ std::optional<BrowseCommand> commandOf(const KeyEvent& event) {
 
 std::span<const MouseHelp> mouseHelp() {
   static constexpr std::array kTable = {
-      MouseHelp{"left click", "select the body under the mouse"},
+      MouseHelp{"left click", "select what is under the mouse: body, triangle, contact, joint"},
       MouseHelp{"left drag", "turn the view"},
       MouseHelp{"right or middle drag", "move the view"},
       MouseHelp{"wheel", "nearer or farther"},
       MouseHelp{"Ctrl + left drag", "pull the body under the mouse, with limited force"},
       MouseHelp{"W A S D Q E", "fly forwards, left, back, right, down, up"},
+      MouseHelp{"W A S D, Space, Shift, Ctrl", "in scenes that are steered: walk, jump, run, crouch"},
   };
   return kTable;
 }

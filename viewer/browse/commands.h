@@ -30,6 +30,8 @@ enum class BrowseCommand {
   Faster,
   Throw,
   Screenshot,
+  Record,
+  Steer,
   ToggleUi,
   ToggleCosts,
   Help,

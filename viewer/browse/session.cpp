@@ -2,65 +2,79 @@
 
 #include <algorithm>
 #include <chrono>
-#include <string>
+
+#include "samples/all_in_world.h"
+#include "viewer/input_error.h"
 
 namespace viewer {
 
 namespace {
 
-using pfx::Vec3;
 using Clock = std::chrono::steady_clock;
 
 constexpr double kFrameBudget = 0.05;  // s of computing that one call of advance may take
 constexpr double kMaxDue = 0.1;        // s of simulation that a slow frame may leave for the next
-
-RecordedFrame capture(const pfx::World& world) {
-  RecordedFrame frame{world.stepCount(), world.stateHash(), {}};
-  frame.bodies.reserve(world.states().size());
-  for (const pfx::RigidState& s : world.states())
-    frame.bodies.push_back({s.position, s.orientation, s.linear_velocity, s.angular_velocity, s.asleep});
-  return frame;
-}
 
 void push(std::vector<float>& ring, double value) {
   if (ring.size() == Session::kRecent) ring.erase(ring.begin());
   ring.push_back(float(value));
 }
 
+std::vector<float> valuesOf(samples::Scene& scene) {
+  std::vector<float> values;
+  for (const samples::Parameter& p : scene.parameters()) values.push_back(*p.value);
+  return values;
+}
+
 }  // namespace
 
-void Session::load(const SceneSpec& spec) {
-  auto next = std::make_unique<SceneRun>(spec, settings);
-  run_ = std::move(next);
-  forget();
+void Session::begin(std::unique_ptr<SceneRun> run) {
+  run_ = std::move(run);
+  replay_.reset();
+  divergence_.reset();
+  recorded_from_.reset();
+  for (auto* ring : {&totals_, &energies_, &penetrations_, &momenta_, &joint_errors_}) ring->clear();
+  costs_.clear();
+  inputs_.clear();
+  grab.reset();
+  parameters_ = valuesOf(run_->scene());
+  start_dt_ = run_->settings().dt;
+  shown_ = 0;
+  rewound_ = false;
+  exact_ = true;
+  due_ = 0.0;
+  history_.clear();
+  history_.add(*run_, captureFrame(*run_));
+  figures_ = computeFigures(world());
 }
+
+void Session::load(const SceneSpec& spec) { begin(std::make_unique<SceneRun>(spec, settings)); }
 
 void Session::restart() {
   if (run_) load(SceneSpec(spec()));
 }
 
-void Session::forget() {
-  history_.clear();
-  costs_.clear();
-  totals_.clear();
-  energies_.clear();
-  penetrations_.clear();
-  grab.reset();
-  first_ = shown_ = 0;
-  rewound_ = touched_ = false;
-  due_ = 0.0;
-  remember();
+void Session::open(const Recording& recording) {
+  if (recording.numFrames() == 0) throw InputError("the recording has no frames");
+  std::vector<RecordedFrame> frames;
+  for (size_t i = 0; i < recording.numFrames(); ++i) frames.push_back(recording.frame(i));
+  auto run = std::make_unique<SceneRun>(startRun(recording));
+  const uint64_t first = frames.front().step;
+  begin(std::move(run));
+  inputs_ = recording.head().inputs;
+  if (first > 0) {
+    stepTo(*run_, first, inputs_);
+    history_.clear();
+    history_.add(*run_, captureFrame(*run_));
+  }
+  shown_ = first;
+  if (run_->stateHash() != frames.front().state_hash) divergence_ = first;
+  exact_ = !divergence_;
+  replay_ = std::move(frames);
   figures_ = computeFigures(world());
 }
 
-void Session::remember() {
-  history_.push_back(capture(world()));
-  const size_t bytes = std::max<size_t>(1, history_.back().bodies.size()) * sizeof(RecordedBody);
-  while (history_.size() > 1 && history_.size() * bytes > kHistoryBytes) {
-    history_.pop_front();
-    ++first_;
-  }
-}
+bool Session::isAllInWorld() const { return dynamic_cast<const samples::AllInWorld*>(&scene()) != nullptr; }
 
 void Session::measure() {
   double total = 0.0;
@@ -75,53 +89,98 @@ void Session::measure() {
   figures_ = computeFigures(world());
   push(energies_, figures_.kinetic_energy + figures_.potential_energy);
   push(penetrations_, figures_.max_penetration);
-}
-
-// A damped spring between the held point and the mouse, no stronger than a few times the weight of the body.
-// Position and velocity are those of the held point, so that the body swings under it.
-void Session::pull() {
-  if (!grab || !world().isValid(grab->body)) return;
-  constexpr float kRate = 10.0f;              // rad/s, of the spring
-  constexpr float kMaxAcceleration = 120.0f;  // m/s^2
-  pfx::RigidState& s = world().state(grab->body);
-  const Vec3 arm = s.orientation * grab->local;
-  const Vec3 velocity = s.linear_velocity + s.angular_velocity.cross(arm);
-  Vec3 acceleration = kRate * kRate * (grab->target - s.position - arm) - 2.0f * kRate * velocity;
-  if (acceleration.norm() > kMaxAcceleration) acceleration *= kMaxAcceleration / acceleration.norm();
-  const float dt = run_->settings().dt, mass = world().body(grab->body).mass;
-  const pfx::Mat3 r = s.orientation.toRotationMatrix();
-  const Vec3 impulse = 0.5f * mass * dt * acceleration;
-  s.linear_velocity += impulse / mass;
-  s.angular_velocity += r * world().body(grab->body).inertia.inverse() * r.transpose() * arm.cross(impulse);
-  s.angular_velocity *= 0.96f;
-  touched_ = true;
+  push(momenta_, figures_.linear_momentum.norm());
+  push(joint_errors_, figures_.max_joint_error);
 }
 
 void Session::makeStep() {
-  pull();
+  if (grab && world().isValid(grab->body)) {
+    inputs_.push_back({shown_, Pull{grab->body.index, grab->local, grab->target}});
+    applyInput(*run_, inputs_.back().what);
+  }
   run_->step();
   ++shown_;
-  remember();
+  history_.add(*run_, captureFrame(*run_));
   measure();
 }
 
-void Session::resumeFromShown() {
-  if (!rewound_) return;
-  if (!touched_) {
-    auto again = std::make_unique<SceneRun>(SceneSpec(spec()), run_->settings());
-    again->stepTo(shown_);
-    run_ = std::move(again);
+// The recording decides what is shown; as long as the run repeats it, everything else about the step is known too.
+void Session::replayStep() {
+  const RecordedFrame& next = (*replay_)[size_t(shown_ + 1 - firstStep())];
+  if (exact_) {
+    stepTo(*run_, next.step, inputs_);
+    if (shown_ == history_.last()) history_.add(*run_, captureFrame(*run_));
+    measure();
+    if (run_->stateHash() != next.state_hash) {
+      divergence_ = std::min(divergence_.value_or(next.step), next.step);
+      exact_ = false;
+    }
   }
-  history_.resize(size_t(shown_ - first_ + 1));
+  if (!exact_ && world().states().size() == next.bodies.size()) applyFrame(world(), next);
+  shown_ = next.step;
+}
+
+void Session::applySettings(uint64_t before) {
+  std::vector<samples::Parameter> all = run_->scene().parameters();
+  for (size_t i = 0; i < std::min(all.size(), parameters_.size()); ++i) *all[i].value = parameters_[i];
+  run_->setTimeStep(start_dt_);
+  for (const TimedInput& input : inputs_)
+    if (input.step < before &&
+        (std::holds_alternative<SetParameter>(input.what) || std::holds_alternative<SetTimeStep>(input.what)))
+      applyInput(*run_, input.what);
+}
+
+void Session::runAgain(uint64_t step) {
+  RunSettings start = run_->settings();
+  start.dt = start_dt_;
+  start.parameters = parameters_;
+  auto again = std::make_unique<SceneRun>(SceneSpec(spec()), start);
+  stepTo(*again, step, inputs_);
+  run_ = std::move(again);
+}
+
+void Session::stepFromSnapshot(uint64_t step) {
+  // At least one step is made, since a snapshot has no islands.
+  history_.restoreBefore(world(), step > history_.first() ? step - 1 : step);
+  applySettings(world().stepCount());
+  stepTo(*run_, step, inputs_);
+}
+
+// What is done now follows the step that is shown: what was known beyond it is forgotten.
+void Session::goLive() {
+  if (replay_) {
+    const uint64_t at = shown_;
+    if (!exact_) runAgain(at);
+    history_.forgetAfter(at);
+    if (history_.last() < at) {
+      history_.clear();
+      history_.add(*run_, captureFrame(*run_));
+    }
+    replay_.reset();
+  } else if (rewound_) {
+    if (!exact_) runAgain(shown_);
+    history_.forgetAfter(shown_);
+  } else {
+    return;
+  }
+  std::erase_if(inputs_, [&](const TimedInput& input) { return input.step >= shown_; });
   rewound_ = false;
+  exact_ = true;
+}
+
+void Session::give(const SceneInput& input) {
+  goLive();
+  inputs_.push_back({shown_, input});
+  applyInput(*run_, input);
 }
 
 void Session::stepForward(int count) {
   for (int i = 0; i < count; ++i) {
-    if (rewound_ && shown_ < lastStep()) {
+    if (replay_) {
+      if (shown_ < lastStep()) replayStep();
+    } else if (rewound_ && shown_ < lastStep()) {
       seek(shown_ + 1);
     } else {
-      resumeFromShown();
       makeStep();
     }
   }
@@ -130,36 +189,69 @@ void Session::stepForward(int count) {
 void Session::seek(uint64_t step) {
   const uint64_t to = std::clamp(step, firstStep(), lastStep());
   if (to == shown_) return;
-  applyFrame(world(), history_[size_t(to - first_)]);
-  shown_ = to;
-  rewound_ = true;
+  const bool all_in_world = isAllInWorld();
+  if (replay_) {
+    const RecordedFrame& frame = (*replay_)[size_t(to - firstStep())];
+    const bool repeated = to <= history_.last() && (!divergence_ || to < *divergence_);
+    const bool poses_alone = !(repeated && all_in_world) && world().states().size() == frame.bodies.size();
+    if (poses_alone)
+      applyFrame(world(), frame);
+    else if (repeated && all_in_world)
+      stepFromSnapshot(to);
+    else
+      runAgain(to);
+    shown_ = to;
+    exact_ = !poses_alone && run_->stateHash() == frame.state_hash;
+  } else {
+    if (!rewound_) present_ = takeSnapshot(world());
+    rewound_ = to != lastStep();
+    exact_ = true;
+    if (!rewound_) {
+      world().restore(present_);
+      if (all_in_world) applySettings(~uint64_t(0));
+    } else if (all_in_world)
+      stepFromSnapshot(to);
+    else if (history_.showPoses(world(), to))
+      exact_ = false;
+    else
+      runAgain(to);
+    shown_ = to;
+  }
+  figures_ = computeFigures(world());
 }
 
 void Session::advance(double seconds) {
   if (!run_ || paused) return;
-  resumeFromShown();
-  const double dt = run_->settings().dt;
+  if (!replay_) goLive();
   due_ = std::min(due_ + seconds * speed, kMaxDue * std::max(1.0, double(speed)));
   const auto start = Clock::now();
-  while (due_ >= dt) {
-    makeStep();
-    due_ -= dt;
+  while (due_ >= double(run_->settings().dt)) {
+    due_ -= double(run_->settings().dt);
+    if (replay_ && shown_ >= lastStep()) {
+      paused = true;
+      break;
+    }
+    replay_ ? replayStep() : makeStep();
     if (std::chrono::duration<double>(Clock::now() - start).count() > kFrameBudget) break;
   }
 }
 
-void Session::throwBall(const Vec3& from, const Vec3& velocity, float radius) {
-  resumeFromShown();
-  touched_ = true;
-  world().addBody({.name = "thrown ball " + std::to_string(world().states().size()),
-                   .pose = {from, pfx::Quat::Identity()},
-                   .linear_velocity = velocity,
-                   .shapes = {pfx::Shape{pfx::Sphere{radius}, {}}},
-                   .mass = 8000.0f * radius * radius * radius});
-  // What was remembered has one body less; it cannot be shown with this world any more.
-  history_.clear();
-  first_ = shown_;
-  remember();
+std::vector<uint8_t> Session::stopRecording() {
+  const uint64_t from = std::max(recorded_from_.value_or(shown_), history_.first());
+  recorded_from_.reset();
+  RecordingWriter writer({.target = spec().target(),
+                          .dt = start_dt_,
+                          .substeps = uint32_t(world().def().substeps),
+                          .parameters = parameters_,
+                          .inputs = inputs_});
+  for (uint64_t step = from; step <= std::max(from, shown_) && step <= history_.last(); ++step)
+    writer.add(history_.frame(step));
+  return writer.bytes();
+}
+
+const RecordedFrame* Session::remembered(uint64_t step) const {
+  if (replay_) return step >= firstStep() && step <= lastStep() ? &(*replay_)[size_t(step - firstStep())] : nullptr;
+  return step >= history_.first() && step <= history_.last() ? &history_.frame(step) : nullptr;
 }
 
 }  // namespace viewer

@@ -17,15 +17,22 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Names of contact solvers: sub-stepped soft constraints, and Newton's method island by island.
-constexpr std::pair<const char*, pfx::ContactSolver> kSolvers[] = {{"auto", pfx::ContactSolver::Auto},
-                                                                   {"soft_step", pfx::ContactSolver::Soft},
-                                                                   {"newton", pfx::ContactSolver::Newton}};
+// What --solver may choose; what it does not set is as the scene has it.
+struct SolverChoice {
+  const char* name;
+  std::optional<pfx::JointSolver> joints;
+  std::optional<pfx::ContactSolver> contacts;
+};
+constexpr SolverChoice kSolvers[] = {
+    {"auto", {}, {}},                                                    // by island
+    {"soft_step", pfx::JointSolver::Soft, pfx::ContactSolver::Soft},     // sub-stepped soft constraints for all
+    {"direct", pfx::JointSolver::Direct, {}},                            // joints in one sparse system
+    {"newton", {}, pfx::ContactSolver::Newton},                          // contacts of islands by Newton's method
+};
 
-const char* nameOf(pfx::ContactSolver solver) {
-  return std::find_if(std::begin(kSolvers), std::end(kSolvers),
-                      [&](const auto& s) { return s.second == solver; })
-      ->first;
+const SolverChoice* findSolver(const std::string& name) {
+  const auto found = std::ranges::find(kSolvers, name, &SolverChoice::name);
+  return found == std::end(kSolvers) ? nullptr : found;
 }
 
 struct Options {
@@ -105,6 +112,20 @@ ordered_json posesJson(const pfx::World& world) {
   return poses;
 }
 
+// What the scene itself measures: that it shows what it is meant to show.
+ordered_json readingsJson(const SceneRun& run) {
+  auto readings = ordered_json::array();
+  for (const samples::Reading& r : run.scene().readings(run.world())) {
+    ordered_json reading = {{"name", r.name}, {"unit", r.unit}, {"value", r.value}};
+    if (r.limit != 0.0) {
+      reading["limit"] = r.limit;
+      reading["holds"] = r.value <= r.limit;
+    }
+    readings.push_back(std::move(reading));
+  }
+  return readings;
+}
+
 ordered_json describe(const SceneRun& run, const Measured& m, const Options& options) {
   const double steps = std::max(1, options.steps);
   ordered_json ms = {{"total", m.total_ms / steps}};
@@ -113,7 +134,7 @@ ordered_json describe(const SceneRun& run, const Measured& m, const Options& opt
                        {"steps", options.steps},
                        {"dt", options.dt},
                        {"substeps", run.world().def().substeps},
-                       {"solver", nameOf(run.world().def().contact_solver)},
+                       {"solver", options.solver},
                        {"threads", options.threads},
                        {"state_hash", hexText(run.stateHash())},
                        {"final", figuresJson(m.final)},
@@ -122,6 +143,7 @@ ordered_json describe(const SceneRun& run, const Measured& m, const Options& opt
                          {"max_joint_error", m.max_joint_error},
                          {"speed", m.max_speed}}},
                        {"ms_per_step", ms}};
+  json["readings"] = readingsJson(run);
   if (options.every_step) json["per_step"] = m.per_step;
   if (options.poses) json["poses"] = posesJson(run.world());
   return json;
@@ -139,6 +161,13 @@ void printText(const ordered_json& json) {
   for (const auto& [key, value] : json["final"].items()) row(key, value);
   std::printf("\nlargest of the run\n");
   for (const auto& [key, value] : json["max"].items()) row(key, value);
+  if (!json["readings"].empty()) std::printf("\nreadings of the scene\n");
+  for (const auto& r : json["readings"]) {
+    std::printf("%-40s %.6g %s", r["name"].get<std::string>().c_str(), r["value"].get<double>(),
+                r["unit"].get<std::string>().c_str());
+    if (r.contains("limit")) std::printf(" (%s %.6g)", r["holds"].get<bool>() ? "at most" : "more than", r["limit"].get<double>());
+    std::printf("\n");
+  }
   std::printf("\nms per step\n");
   for (const auto& [key, value] : json["ms_per_step"].items())
     std::printf("%-18s%.4f\n", key.c_str(), value.get<double>());
@@ -151,27 +180,21 @@ void printText(const ordered_json& json) {
 void check(const Options& o) {
   if (!(o.dt > 0.0f) || !(o.dt <= 1.0f))
     throw InputError("--dt must be a time in seconds, above 0 and at most 1");
+  if (findSolver(o.solver) == nullptr)
+    throw InputError("unknown solver \"" + o.solver + "\"; known: auto, soft_step, direct, newton");
   if (o.iterations)
-    throw InputError("--iterations: these solvers choose their own; raise --substeps instead");
-}
-
-pfx::ContactSolver solverNamed(const std::string& name) {
-  std::string known;
-  for (const auto& [solver, value] : kSolvers) {
-    if (name == solver) return value;
-    known += (known.empty() ? "" : ", ") + std::string(solver);
-  }
-  throw InputError("unknown solver \"" + name + "\"; known: " + known);
+    throw InputError("--iterations: solver " + o.solver + " does not take a number of iterations; raise --substeps instead");
 }
 
 int measure(const Options& options) {
   check(options);
-  const pfx::ContactSolver solver = solverNamed(options.solver);
   auto results = ordered_json::array();
+  const SolverChoice& solver = *findSolver(options.solver);
   for (const SceneSpec& spec : findTarget(allScenes(), options.target)) {
     SceneRun run(spec, {.dt = options.dt,
                         .substeps = options.substeps,
-                        .contact_solver = solver,
+                        .joint_solver = solver.joints,
+                        .contact_solver = solver.contacts,
                         .threads = options.threads});
     const Measured m = runSteps(run, options);
     results.push_back(describe(run, m, options));
@@ -203,7 +226,7 @@ void addMeasureCommand(CLI::App& app, Action& action) {
   command->add_option("--substeps", options->substeps, "Solver sub-steps a step")->check(CLI::Range(1, 1000));
   command->add_option("--iterations", options->iterations, "Iterations of solvers that iterate")
       ->check(CLI::Range(1, 10000));
-  command->add_option("--solver", options->solver, "auto, soft_step or newton")->capture_default_str();
+  command->add_option("--solver", options->solver, "auto, soft_step, direct or newton")->capture_default_str();
   command->add_option("--threads", options->threads, "Threads; the result is the same for any number")
       ->check(CLI::Range(1, 64))
       ->capture_default_str();

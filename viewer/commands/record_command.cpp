@@ -23,18 +23,19 @@ int record(const Options& options) {
   const auto folder = std::filesystem::path(options.out).parent_path();
   requireWritableFolder(folder.empty() ? "." : folder);
   SceneRun run(scene, options.run);
-  RecordingWriter writer({run.spec().target(), options.run.dt, uint32_t(run.world().def().substeps)});
-  writer.add(run.world());
+  RecordingWriter writer(
+      {.target = run.spec().target(), .dt = options.run.dt, .substeps = uint32_t(run.world().def().substeps)});
+  writer.add(captureFrame(run));
   Progress progress("record " + run.spec().target(), uint64_t(options.steps));
   for (int i = 0; i < options.steps; ++i) {
     progress.at(uint64_t(i));
     run.step();
-    writer.add(run.world());
+    writer.add(captureFrame(run));
   }
   const std::vector<uint8_t> bytes = writer.bytes();
   writeFile(options.out, bytes);
   std::printf("%s: %zu frames, %zu bytes, last state %s\n", options.out.c_str(), writer.numFrames(),
-              bytes.size(), hexText(run.world().stateHash()).c_str());
+              bytes.size(), hexText(run.stateHash()).c_str());
   return 0;
 }
 

@@ -19,11 +19,6 @@ struct Options {
   std::optional<size_t> frame;
 };
 
-SceneRun startRun(const Recording& recording) {
-  const RecordingHead& head = recording.head();
-  return SceneRun(findScene(allScenes(), head.target), {.dt = head.dt, .substeps = int(head.substeps)});
-}
-
 // Runs the scene again beside the recording; the first frame whose state differs ends it.
 int check(const Recording& recording) {
   SceneRun run = startRun(recording);
@@ -31,11 +26,11 @@ int check(const Recording& recording) {
   for (size_t i = 0; i < recording.numFrames(); ++i) {
     progress.at(i);
     const RecordedFrame frame = recording.frame(i);
-    run.stepTo(frame.step);
-    if (run.world().stateHash() == frame.state_hash) continue;
+    stepTo(run, frame.step, recording.head().inputs);
+    if (run.stateHash() == frame.state_hash) continue;
     std::printf("%s: diverges first in frame %zu: recorded state %s, now %s\n",
                 recording.head().target.c_str(), i, hexText(frame.state_hash).c_str(),
-                hexText(run.world().stateHash()).c_str());
+                hexText(run.stateHash()).c_str());
     return 1;
   }
   std::printf("%s: all %zu frames are reproduced bit for bit\n", recording.head().target.c_str(),
@@ -55,9 +50,12 @@ int draw(const Recording& recording, const Options& options) {
                                  .overlays = parseOverlays(options.overlays)};
   SceneRun run = startRun(recording);
   const RecordedFrame frame = recording.frame(*options.frame);
-  // A scene that adds bodies while it runs has to get there first.
-  if (frame.bodies.size() != run.world().states().size()) run.stepTo(frame.step);
-  applyFrame(run.world(), frame);
+  // What a scene simulates besides the world is only there when it is run again.
+  stepTo(run, frame.step, recording.head().inputs);
+  if (run.stateHash() != frame.state_hash) {
+    std::fprintf(stderr, "vitrine replay: the scene runs differently now; the picture shows the recorded poses\n");
+    applyFrame(run.world(), frame);
+  }
   Capture capture(settings);
   writePng(options.out, capture.draw(run, run.spec().camera));
   std::printf("%s\n", options.out.c_str());

@@ -37,7 +37,16 @@ MeshData triangulate(const pfx::LargeMesh& mesh) {
       indices.push_back(uint32_t(points.size()));
       points.push_back(corner);
     }
-  return makeMesh(points, indices);
+  MeshData front = makeMesh(points, indices);
+  // One that has an edge of its own can be seen from behind.
+  const bool is_open = std::any_of(
+      mesh.neighbors.begin(), mesh.neighbors.end(),
+      [](const pfx::MeshIndices& n) { return std::find(n.begin(), n.end(), pfx::kNoFacet) != n.end(); });
+  if (!is_open) return front;
+  for (size_t i = 0; i + 3 <= indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
+  const MeshData back = makeMesh(points, indices);
+  front.vertices.insert(front.vertices.end(), back.vertices.begin(), back.vertices.end());
+  return front;
 }
 
 }  // namespace
@@ -114,8 +123,9 @@ void Recorder::draw(uint64_t key, std::span<const pfx::SolidInstance> instances)
   const Placement place = found->second;
   list_->append(place.mesh, instances.size(), [&](size_t i) {
     const pfx::SolidInstance& s = instances[i];
-    return Instance{s.pose.position, s.pose.orientation, place.scale,
-                    s.color,         uint32_t(s.finish), pickId(PickKind::Body, s.body)};
+    const Color own = s.body < body_colors.size() ? body_colors[s.body] : 0;
+    return Instance{s.pose.position, s.pose.orientation, place.scale, own ? own : s.color, uint32_t(s.finish),
+                    pickId(PickKind::Body, s.body)};
   });
 }
 

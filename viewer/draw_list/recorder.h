@@ -34,6 +34,7 @@ class Recorder {
   float line_width = 1.5f;  // px, of lines that follow
   float point_size = 7.0f;  // px
   uint32_t pick = 0;        // id of immediate items that follow
+  std::vector<Color> body_colors;  // by body: of its solids instead of their own; 0 or missing: their own
 
  private:
   Line style(pfx::Color color) const { return {{}, {}, color, line_width, pick}; }

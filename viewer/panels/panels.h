@@ -32,7 +32,7 @@ struct SceneListState {
 std::optional<std::string> sceneListPanel(const PanelArea& area, std::span<const SceneSpec> scenes,
                                           std::string_view current, SceneListState& state);
 
-// Play, step, restart, timeline, speed.
+// Play, step, restart, timeline, speed, recording.
 struct TransportEdit {
   std::optional<BrowseCommand> command;
   std::optional<uint64_t> seek;
@@ -60,21 +60,24 @@ std::optional<Selection> islandsSection(const pfx::World& world, const Selection
 enum class SideTab { Same, Scene, Selection, Islands, Show };
 struct SideEdit {
   bool restart = false;
+  std::vector<SceneInput> inputs;  // to be given to the session
   InspectorEdit inspector;
 };
 struct SideState {
   Overlays* overlays;
-  RunSettings* settings;
   Selection selected;
   pfx::MeshDraw marked = pfx::MeshDraw::None;
   SideTab show = SideTab::Same;  // the tab to bring to the front
 };
-SideEdit sidePanel(const PanelArea& area, const Session& session, const SideState& state);
+SideEdit sidePanel(const PanelArea& area, Session& session, const SideState& state);
 
-// The sections of the side panel.
+// The sections of the side panel. Parameters and solver settings that act only from a restart are put into
+// `session.settings`.
 void countersSection(const Session& session);
+void readingsSection(const Session& session);
 void overlaysSection(Overlays& overlays);
-bool solverSection(RunSettings& settings, const pfx::WorldDef& def);
+void parametersSection(Session& session, SideEdit& edit);
+void solverSection(Session& session, SideEdit& edit);
 
 // Table and plots of what the stages cost.
 void costsPanel(const PanelArea& area, const Session& session);

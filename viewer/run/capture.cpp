@@ -5,19 +5,30 @@
 #include "viewer/run/list_canvas.h"
 
 namespace viewer {
+namespace {
+
+void addPositions(Trails& trails, const pfx::World& world) {
+  if (trails.size() > kTrailSteps) trails.erase(trails.begin());
+  trails.emplace_back();
+  for (const pfx::RigidState& s : world.states()) trails.back().push_back(s.position);
+}
+
+}  // namespace
 
 Capture::Capture(const CaptureSettings& settings)
     : settings_(settings),
       context_(makeContext({.backend = settings.backend})),
       renderer_(*context_, {.quality = settings.quality, .shader_dir = {}}) {}
 
-Image Capture::draw(const SceneRun& run, const samples::CameraPose& camera) {
+Image Capture::draw(const SceneRun& run, const samples::CameraPose& camera, const Trails& trails) {
   // A fresh list each time: a picture must not depend on what was drawn before it.
   DrawList list;
   WorldView view(list);
   list.begin();
   list.camera = orbitCamera(camera);
-  view.add(run.world(), settings_.overlays);
+  ViewExtras extras;
+  extras.trails = &trails;
+  view.add(run.world(), settings_.overlays, extras);
   ListCanvas canvas(list);
   run.scene().draw(run.world(), canvas);
   list.end();
@@ -28,9 +39,15 @@ Image Capture::draw(const SceneRun& run, const samples::CameraPose& camera) {
 void Capture::render(const SceneSpec& scene, std::span<const int> frames,
                      const std::function<void(RenderedFrame&&)>& use) {
   SceneRun run(scene, settings_.run);
+  Trails trails;
   for (int frame : frames) {
+    if (settings_.overlays.trails)
+      while (run.world().stepCount() < uint64_t(frame)) {
+        run.step();
+        addPositions(trails, run.world());
+      }
     run.stepTo(uint64_t(frame));
-    use({frame, run.stateHash(), draw(run, scene.camera)});
+    use({frame, run.stateHash(), draw(run, scene.camera, trails)});
   }
 }
 

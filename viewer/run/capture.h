@@ -28,8 +28,8 @@ class Capture : public FrameSource {
   // Throws ContextError when no backend can be opened.
   explicit Capture(const CaptureSettings& settings);
 
-  // The scene as it is now.
-  Image draw(const SceneRun& run, const samples::CameraPose& camera);
+  // The scene as it is now, with the trails of the steps before it.
+  Image draw(const SceneRun& run, const samples::CameraPose& camera, const Trails& trails = {});
 
   std::string fingerprint() const override { return renderer_.fingerprint(); }
   void render(const SceneSpec& scene, std::span<const int> frames,

@@ -3,7 +3,10 @@
 
 #include <xxhash.h>
 
+#include <algorithm>
+#include <array>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <stdexcept>
 
@@ -16,8 +19,11 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "recordings are little endian");
 
 constexpr char kMagic[8] = {'V', 'T', 'R', 'N', 'R', 'E', 'C', '\n'};
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 constexpr uint32_t kMaxTarget = 4096;  // bytes
+constexpr uint32_t kMaxParameters = 4096;
+constexpr size_t kInputFloats = 8;
+constexpr size_t kInputBytes = sizeof(uint64_t) + 2 * sizeof(uint32_t) + kInputFloats * sizeof(float);
 constexpr size_t kFloatsABody = 13;
 constexpr size_t kBytesABody = kFloatsABody * sizeof(float) + 1;
 constexpr size_t kFrameHead = 2 * sizeof(uint64_t) + sizeof(uint32_t);
@@ -60,7 +66,69 @@ class Reader {
 };
 
 size_t headSize(const RecordingHead& head) {
-  return sizeof kMagic + 4 * sizeof(uint32_t) + sizeof(float) + head.target.size();
+  return sizeof kMagic + 6 * sizeof(uint32_t) + sizeof(float) + head.target.size() +
+         head.parameters.size() * sizeof(float) + head.inputs.size() * kInputBytes;
+}
+
+// An input as numbers: what does not need all of them leaves zeros.
+struct InputRecord {
+  uint32_t index = 0;
+  std::array<float, kInputFloats> values = {};
+};
+
+struct Pack {
+  static InputRecord vectors(uint32_t index, const pfx::Vec3& a, const pfx::Vec3& b, float last = 0.0f) {
+    return {index, {a.x(), a.y(), a.z(), b.x(), b.y(), b.z(), last}};
+  }
+  InputRecord operator()(const Pull& p) const { return vectors(p.body, p.local, p.target); }
+  InputRecord operator()(const ThrowBall& b) const { return vectors(0, b.from, b.velocity, b.radius); }
+  InputRecord operator()(const SetParameter& p) const { return {p.index, {p.value}}; }
+  InputRecord operator()(const SetTimeStep& t) const { return {0, {t.dt}}; }
+  InputRecord operator()(const samples::Controls& c) const {
+    return {uint32_t(c.run) | uint32_t(c.jump) << 1 | uint32_t(c.crouch) << 2, {c.right, c.forward, c.heading}};
+  }
+};
+
+SceneInput unpack(uint32_t kind, const InputRecord& r) {
+  const auto& v = r.values;
+  for (float value : v)
+    if (!std::isfinite(value)) throw std::runtime_error("has an input that is not a number");
+  const pfx::Vec3 a(v[0], v[1], v[2]), b(v[3], v[4], v[5]);
+  switch (kind) {
+    case 0:
+      return Pull{r.index, a, b};
+    case 1:
+      if (!(v[6] > 0.0f)) break;
+      return ThrowBall{a, b, v[6]};
+    case 2:
+      return SetParameter{r.index, v[0]};
+    case 3:
+      if (!(v[0] > 0.0f)) break;
+      return SetTimeStep{v[0]};
+    case 4:
+      return samples::Controls{v[0], v[1], v[2], (r.index & 1) != 0, (r.index & 2) != 0, (r.index & 4) != 0};
+    default:
+      break;
+  }
+  throw std::runtime_error("has an input that is not known");
+}
+
+TimedInput readInput(Reader& reader) {
+  TimedInput input;
+  input.step = reader.get<uint64_t>();
+  const auto kind = reader.get<uint32_t>();
+  InputRecord record{reader.get<uint32_t>(), {}};
+  for (float& value : record.values) value = reader.get<float>();
+  input.what = unpack(kind, record);
+  return input;
+}
+
+void putInput(std::vector<uint8_t>& out, const TimedInput& input) {
+  const InputRecord record = std::visit(Pack(), input.what);
+  put(out, input.step);
+  put(out, uint32_t(input.what.index()));
+  put(out, record.index);
+  for (float value : record.values) put(out, value);
 }
 
 void checkOffsets(std::span<const uint64_t> offsets, size_t first, size_t end) {
@@ -71,18 +139,26 @@ void checkOffsets(std::span<const uint64_t> offsets, size_t first, size_t end) {
 
 }  // namespace
 
-void RecordingWriter::add(const pfx::World& world) {
-  const auto states = world.states();
-  put(frames_, world.stepCount());
-  put(frames_, world.stateHash());
-  put(frames_, uint32_t(states.size()));
-  for (const pfx::RigidState& s : states) {
-    put(frames_, s.position);
-    for (int i = 0; i < 4; ++i) put(frames_, s.orientation.coeffs()[i]);  // x, y, z, w
-    put(frames_, s.linear_velocity);
-    put(frames_, s.angular_velocity);
+RecordedFrame captureFrame(const SceneRun& run) {
+  const pfx::World& world = run.world();
+  RecordedFrame frame{world.stepCount(), run.stateHash(), {}};
+  frame.bodies.reserve(world.states().size());
+  for (const pfx::RigidState& s : world.states())
+    frame.bodies.push_back({s.position, s.orientation, s.linear_velocity, s.angular_velocity, s.asleep});
+  return frame;
+}
+
+void RecordingWriter::add(const RecordedFrame& frame) {
+  put(frames_, frame.step);
+  put(frames_, frame.state_hash);
+  put(frames_, uint32_t(frame.bodies.size()));
+  for (const RecordedBody& b : frame.bodies) {
+    put(frames_, b.position);
+    for (int i = 0; i < 4; ++i) put(frames_, b.orientation.coeffs()[i]);  // x, y, z, w
+    put(frames_, b.linear_velocity);
+    put(frames_, b.angular_velocity);
   }
-  for (const pfx::RigidState& s : states) put(frames_, uint8_t(s.asleep));
+  for (const RecordedBody& b : frame.bodies) put(frames_, uint8_t(b.asleep));
   ends_.push_back(frames_.size());
 }
 
@@ -93,7 +169,11 @@ std::vector<uint8_t> RecordingWriter::bytes() const {
   put(out, head_.substeps);
   put(out, uint32_t(ends_.size()));
   put(out, uint32_t(head_.target.size()));
+  put(out, uint32_t(head_.parameters.size()));
+  put(out, uint32_t(head_.inputs.size()));
   out.insert(out.end(), head_.target.begin(), head_.target.end());
+  for (float value : head_.parameters) put(out, value);
+  for (const TimedInput& input : head_.inputs) putInput(out, input);
   const uint64_t first = headSize(head_) + (ends_.size() + 1) * sizeof(uint64_t);
   put(out, first);
   for (uint64_t end : ends_) put(out, first + end);
@@ -115,9 +195,14 @@ Recording::Recording(std::vector<uint8_t> bytes, const std::string& name) : byte
     head_.substeps = reader.get<uint32_t>();
     const auto frames = reader.get<uint32_t>();
     const auto length = reader.get<uint32_t>();
-    if (length > kMaxTarget) throw std::runtime_error("is damaged");
+    const auto parameters = reader.get<uint32_t>(), inputs = reader.get<uint32_t>();
+    if (length > kMaxTarget || parameters > kMaxParameters) throw std::runtime_error("is damaged");
     const auto target = reader.take(length);
     head_.target.assign(target.begin(), target.end());
+    for (uint32_t i = 0; i < parameters; ++i) head_.parameters.push_back(reader.get<float>());
+    if (reader.left() / kInputBytes < inputs) throw std::runtime_error("is cut off");
+    for (uint32_t i = 0; i < inputs; ++i) head_.inputs.push_back(readInput(reader));
+    if (!std::ranges::is_sorted(head_.inputs, {}, &TimedInput::step)) throw std::runtime_error("is damaged");
     if (reader.left() / sizeof(uint64_t) < size_t(frames) + 2) throw std::runtime_error("is cut off");
     offsets_.resize(size_t(frames) + 1);
     for (uint64_t& offset : offsets_) offset = reader.get<uint64_t>();
@@ -153,6 +238,12 @@ RecordedFrame Recording::frame(size_t index) const {
   }
   for (RecordedBody& b : frame.bodies) b.asleep = reader.get<uint8_t>() != 0;
   return frame;
+}
+
+SceneRun startRun(const Recording& recording) {
+  const RecordingHead& head = recording.head();
+  RunSettings settings{.dt = head.dt, .substeps = int(head.substeps), .parameters = head.parameters};
+  return SceneRun(findScene(allScenes(), head.target), settings);
 }
 
 void applyFrame(pfx::World& world, const RecordedFrame& frame) {

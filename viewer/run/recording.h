@@ -1,11 +1,14 @@
 // A recording of a run: poses and velocities of every body after every step, with the state hash of each, so
-// that any frame can be shown at once and a run can be checked against it.
+// that any frame can be shown at once and a run can be checked against it; and what a person did meanwhile, so that it
+// can be run again.
 //
-// File, little endian, version 1:
+// File, little endian, version 2:
 //   char[8] "VTRNREC\n" | u32 version | f32 dt (s) | u32 sub-steps | u32 frames | u32 length of target |
-//   target u64[frames + 1] offsets of the frames from the start of the file; the last is their end frames:
-//   u64 step | u64 state hash | u32 bodies | bodies x 13 f32 (position, orientation x y z w, linear velocity,
-//           angular velocity) | bodies x u8 (1: asleep)
+//   u32 parameters | u32 inputs | target | parameters x f32 |
+//   inputs x (u64 step, u32 kind, u32 index, 8 f32; kinds are those of SceneInput) |
+//   u64[frames + 1] offsets of the frames from the start of the file; the last is their end
+//   frames: u64 step | u64 state hash of the run | u32 bodies | bodies x 13 f32 (position, orientation x y z w, linear
+//           velocity, angular velocity) | bodies x u8 (1: asleep)
 //   u64 XXH3 of everything before it
 #pragma once
 
@@ -15,7 +18,7 @@
 #include <string>
 #include <vector>
 
-#include "pfx/high_level/world/world.h"
+#include "viewer/run/scene_input.h"
 
 namespace viewer {
 
@@ -31,17 +34,22 @@ struct RecordedFrame {
   std::vector<RecordedBody> bodies;  // by body index
 };
 
+// The run as it is now.
+RecordedFrame captureFrame(const SceneRun& run);
+
 struct RecordingHead {
   std::string target;  // of the scene
-  float dt = 0.0f;     // s
+  float dt = 0.0f;     // s, at the start of the run
   uint32_t substeps = 0;
+  std::vector<float> parameters = {};   // of the scene when it was built
+  std::vector<TimedInput> inputs = {};  // since the start of the run, ascending by step
 };
 
 class RecordingWriter {
  public:
   explicit RecordingWriter(RecordingHead head) : head_(std::move(head)) {}
 
-  void add(const pfx::World& world);   // the world as it is now, as the next frame
+  void add(const RecordedFrame& frame);
   std::vector<uint8_t> bytes() const;  // of the file
   size_t numFrames() const { return ends_.size(); }
 
@@ -67,6 +75,9 @@ class Recording {
   std::vector<uint8_t> bytes_;
   std::vector<uint64_t> offsets_;
 };
+
+// The run at its start, as the recording was made.
+SceneRun startRun(const Recording& recording);
 
 // Puts the bodies of the world where the frame has them. Throws InputError when the numbers of bodies differ.
 void applyFrame(pfx::World& world, const RecordedFrame& frame);

@@ -1,6 +1,7 @@
 // Runs a scene.
 #include "viewer/run/scene_run.h"
 
+#include <algorithm>
 #include <array>
 
 #include "pfx/util/state_hash/state_hash.h"
@@ -11,6 +12,7 @@ namespace {
 pfx::WorldDef worldDef(const SceneSpec& spec, const RunSettings& settings) {
   pfx::WorldDef def = spec.world;
   def.substeps = settings.substeps.value_or(def.substeps);
+  def.joint_solver = settings.joint_solver.value_or(def.joint_solver);
   def.contact_solver = settings.contact_solver.value_or(def.contact_solver);
   def.workers = settings.threads;
   return def;
@@ -20,6 +22,9 @@ pfx::WorldDef worldDef(const SceneSpec& spec, const RunSettings& settings) {
 
 SceneRun::SceneRun(const SceneSpec& spec, const RunSettings& settings)
     : spec_(spec), settings_(settings), world_(worldDef(spec, settings)), scene_(spec.make()) {
+  std::vector<samples::Parameter> parameters = scene_->parameters();
+  for (size_t i = 0; i < std::min(parameters.size(), settings_.parameters.size()); ++i)
+    *parameters[i].value = std::clamp(settings_.parameters[i], parameters[i].low, parameters[i].high);
   scene_->build(world_);
 }
 

@@ -12,9 +12,11 @@ namespace viewer {
 // What a caller may change about a scene. What is not set is as the scene has it.
 struct RunSettings {
   float dt = samples::kTimeStep;  // s, > 0
-  std::optional<int> substeps;    // >= 1
-  std::optional<pfx::ContactSolver> contact_solver;
+  std::optional<int> substeps = {};  // >= 1
+  std::optional<pfx::JointSolver> joint_solver = {};
+  std::optional<pfx::ContactSolver> contact_solver = {};
   int threads = 1;                // the caller included; does not change the result
+  std::vector<float> parameters = {};  // of the scene, before it is built; those that are missing are the scene's own
 };
 
 class SceneRun {
@@ -24,6 +26,8 @@ class SceneRun {
 
   void step();                  // the scene's script round one step of the world
   void stepTo(uint64_t steps);  // until so many steps were made
+
+  void setTimeStep(float dt) { settings_.dt = dt; }  // s, > 0, from the next step on
 
   const SceneSpec& spec() const { return spec_; }
   const RunSettings& settings() const { return settings_; }

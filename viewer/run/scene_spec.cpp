@@ -3,37 +3,24 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <numeric>
+#include <fstream>
+#include <iterator>
 
 #include "pfx/base_level/shape/aabb.h"
+#include "pfx/high_level/scene_file/nearest_name.h"
 #include "pfx/high_level/scene_file/scene_file.h"
+#include "pfx/high_level/world/snapshot.h"
+#include "samples/all_in_world.h"
 #include "viewer/input_error.h"
 
 namespace viewer {
 namespace {
 
-// Letters to insert, delete or replace. Source: R. Wagner, M. Fischer, The String-to-String Correction
-// Problem, 1974.
-size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), size_t(0));
-  for (size_t i = 0; i < a.size(); ++i) {
-    size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (size_t j = 0; j < b.size(); ++j) {
-      const size_t replaced = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
-}
-
 std::string nearestTarget(std::span<const SceneSpec> scenes, std::string_view wanted) {
   std::string best;
   size_t best_distance = ~size_t(0);
   const auto offer = [&](std::string_view spelling, const std::string& target) {
-    const size_t d = editDistance(wanted, spelling);
+    const size_t d = pfx::editDistance(wanted, spelling);
     if (d < best_distance) best_distance = d, best = target;
   };
   for (const SceneSpec& s : scenes) {
@@ -46,13 +33,23 @@ std::string nearestTarget(std::span<const SceneSpec> scenes, std::string_view wa
   return best;
 }
 
-class FileScene final : public samples::Scene {
+class FileScene final : public samples::Scene, public samples::AllInWorld {
  public:
   explicit FileScene(std::shared_ptr<const pfx::SceneDef> def) : def_(std::move(def)) {}
   void build(pfx::World& world) override { pfx::buildScene(*def_, world); }
 
  private:
   std::shared_ptr<const pfx::SceneDef> def_;
+};
+
+// A world in the middle of its run.
+class SnapshotScene final : public samples::Scene {
+ public:
+  explicit SnapshotScene(std::shared_ptr<const std::vector<std::byte>> bytes) : bytes_(std::move(bytes)) {}
+  void build(pfx::World& world) override { world.restore(*bytes_); }
+
+ private:
+  std::shared_ptr<const std::vector<std::byte>> bytes_;
 };
 
 // Far enough for the eye to see all bodies that can move, or all when none can.
@@ -89,6 +86,33 @@ SceneSpec sceneOfFile(const std::string& path) {
   }
 }
 
+bool isSnapshotFile(const std::string& path) {
+  char begin[8] = {};
+  std::ifstream file(path, std::ios::binary);
+  file.read(begin, sizeof begin - 1);
+  return std::string_view(begin) == "PFXSNAP";
+}
+
+SceneSpec sceneOfSnapshot(const std::string& path) {
+  std::ifstream file(path, std::ios::binary);
+  const std::string text{std::istreambuf_iterator<char>(file), {}};
+  const auto data = std::as_bytes(std::span(text));
+  const auto bytes = std::make_shared<const std::vector<std::byte>>(data.begin(), data.end());
+  try {
+    pfx::World trial;
+    trial.restore(*bytes);
+    return {.sample = std::filesystem::path(path).stem().string(),
+            .name = "snapshot",
+            .shows = path,
+            .camera = cameraAround(trial),
+            .frames = {0, 60, 240},
+            .world = trial.def(),
+            .make = [bytes] { return std::unique_ptr<samples::Scene>(new SnapshotScene(bytes)); }};
+  } catch (const pfx::SnapshotError& e) {
+    throw InputError(path + ": " + e.what());
+  }
+}
+
 }  // namespace
 
 std::vector<SceneSpec> allScenes() {
@@ -113,6 +137,7 @@ std::vector<SceneSpec> findTarget(std::span<const SceneSpec> scenes, std::string
     if (!std::filesystem::exists(text)) throw InputError(text + ": no such scene file");
     return {sceneOfFile(text)};
   }
+  if (isSnapshotFile(text)) return {sceneOfSnapshot(text)};
   const std::string nearest = nearestTarget(scenes, target);
   throw InputError("unknown sample or scene \"" + text + "\"" +
                    (nearest.empty() ? "" : "; did you mean \"" + nearest + "\"?") +

@@ -27,7 +27,7 @@ struct SceneSpec {
 // All sample scenes, in the order of the browser.
 std::vector<SceneSpec> allScenes();
 
-// The scenes of `scenes` that TARGET names: SAMPLE or SAMPLE/SCENE; or the scene of an .xml file. Throws InputError
+// The scenes of `scenes` that TARGET names: SAMPLE or SAMPLE/SCENE; or the scene of an .xml file or a snapshot. Throws InputError
 // naming the nearest known target, or the line of the file.
 std::vector<SceneSpec> findTarget(std::span<const SceneSpec> scenes, std::string_view target);
 

@@ -15,19 +15,20 @@ constexpr float kSlowest = 0.01f;          // m/s, slower bodies get no arrow
 constexpr float kAxisLength = 0.6f;        // m
 constexpr float kNormalLength = 0.3f;      // m
 constexpr float kJointScale = 0.6f;        // m
+constexpr float kUnitShare = 0.08f;        // of the distance to what is looked at: a long arrow
+constexpr float kWidestAspect = 3.0f;      // of a window, for what the camera may see
 
 }  // namespace
 
 // What never moves would only hide the rest, so bounds, axes and velocities are those of the other bodies.
-void WorldView::addBodyOverlays(const pfx::World& world, const Overlays& overlays) {
-  const auto states = world.states();
+void WorldView::addBodyOverlays(const OverlayScene& scene) {
+  const auto states = scene.world.states();
   for (uint32_t body = 0; body < states.size(); ++body)
-    debug_.setVisible(
-        body, world.isValid(world.bodyId(body)) && states[body].motion_type != pfx::MotionType::Fixed);
+    if (states[body].motion_type == pfx::MotionType::Fixed) debug_.setVisible(body, false);
   debug_.scale = kAxisLength;
-  if (overlays.aabb) debug_.renderAabb(states, world.collidables());
-  if (overlays.axes) debug_.renderLocalAxis(states);
-  if (!overlays.velocity) return;
+  if (scene.overlays.aabb) debug_.renderAabb(states, scene.world.collidables());
+  if (scene.overlays.axes) debug_.renderLocalAxis(states);
+  if (!scene.overlays.velocity) return;
   for (uint32_t body = 0; body < states.size(); ++body)
     if (debug_.getVisible(body) && states[body].linear_velocity.norm() > kSlowest)
       list_.add(Arrow{states[body].position,
@@ -35,51 +36,109 @@ void WorldView::addBodyOverlays(const pfx::World& world, const Overlays& overlay
                       2.0f, pickId(PickKind::Body, body)});
 }
 
-void WorldView::addContacts(const pfx::World& world) {
+void WorldView::addContacts(const OverlayScene& scene) {
   debug_.scale = kNormalLength;
-  const auto pairs = world.contactPairs();
+  const auto pairs = scene.world.contactPairs();
   for (uint32_t i = 0; i < pairs.size(); ++i) {
+    if (!scene.shows(pairs[i].body_a) && !scene.shows(pairs[i].body_b)) continue;
     recorder_.pick = pickId(PickKind::Contact, i);
-    debug_.renderContact(world.states(), pairs[i], world.manifolds(pairs[i]));
+    debug_.renderContact(scene.world.states(), pairs[i], scene.world.manifolds(pairs[i]));
   }
 }
 
-void WorldView::addIslands(const pfx::World& world) {
+void WorldView::addIslands(const OverlayScene& scene) {
   recorder_.line_width = 2.5f;
-  for (uint32_t i = 0; i < world.numIslands(); ++i) {
+  for (uint32_t i = 0; i < scene.world.numIslands(); ++i) {
     recorder_.pick = pickId(PickKind::Island, i);
-    debug_.renderIsland(i, world.island(i).bodies, world.states(), world.collidables());
+    debug_.renderIsland(i, scene.world.island(i).bodies, scene.world.states(), scene.world.collidables());
   }
   recorder_.line_width = 1.5f;
 }
 
-void WorldView::addJoints(const pfx::World& world) {
+void WorldView::addJoints(const OverlayScene& scene) {
   debug_.scale = kJointScale;
-  const auto links = world.jointLinks();
+  const auto links = scene.world.jointLinks();
   for (uint32_t i = 0; i < links.size(); ++i) {
-    if (!links[i].exists) continue;
+    if (!links[i].exists || (!scene.shows(links[i].body_a) && !scene.shows(links[i].body_b))) continue;
     recorder_.pick = pickId(PickKind::Joint, i);
-    debug_.renderJoint(world.joints()[i], world.states()[links[i].body_a].pose(),
-                       world.states()[links[i].body_b].pose());
+    debug_.renderJoint(scene.world.joints()[i], scene.world.states()[links[i].body_a].pose(),
+                       scene.world.states()[links[i].body_b].pose());
   }
 }
 
-void WorldView::add(const pfx::World& world, const Overlays& overlays) {
+namespace {
+
+// The near plane and the four sides of what a picture of this aspect shows, inside positive: rows of the clip matrix,
+// w +- x, w +- y and w + z. Source: G. Gribb, K. Hartmann, Fast Extraction of Viewing Frustum Planes from the
+// World-View-Projection Matrix, 2001.
+std::array<pfx::FrustumPlane, 5> frustumPlanes(const Camera& camera, float aspect) {
+  const Mat4 clip = projectionMatrix(camera, aspect) * viewMatrix(camera);
+  std::array<pfx::FrustumPlane, 5> planes;
+  for (int i = 0; i < 5; ++i) {
+    const float sign = i % 2 == 0 ? 1.0f : -1.0f;
+    const Eigen::Matrix<float, 1, 4> row = clip.row(3) + sign * clip.row(i == 4 ? 2 : i / 2);
+    const pfx::Vec3 normal(row.x(), row.y(), row.z());
+    const float length = normal.norm();
+    planes[size_t(i)] = {normal / length, row.w() / length};
+  }
+  return planes;
+}
+
+pfx::MeshDraw meshDraw(const Overlays& o) {
+  using pfx::MeshDraw;
+  const auto flag = [](bool on, MeshDraw what) { return on ? what : MeshDraw::None; };
+  return flag(o.mesh_islands, MeshDraw::Island) | flag(o.mesh_edges || o.mesh_thickness, MeshDraw::Edge) |
+         flag(o.mesh_boxes, MeshDraw::FacetAabb) | flag(o.mesh_normals, MeshDraw::Normal) |
+         flag(o.mesh_thickness, MeshDraw::Thickness);
+}
+
+}  // namespace
+
+// Only islands that the camera may see: a large mesh has more triangles than anybody wants to send.
+void WorldView::addMeshes(const OverlayScene& scene) {
+  const auto states = scene.world.states();
+  const auto collidables = scene.world.collidables();
+  debug_.scale = kNormalLength;
+  if (!marks_.empty()) debug_.renderLargeMeshByFlag(states, collidables);
+  const pfx::MeshDraw what = meshDraw(scene.overlays);
+  if (what == pfx::MeshDraw::None) return;
+  const auto planes = frustumPlanes(list_.camera, kWidestAspect);
+  debug_.renderLargeMeshInFrustum(states, collidables, what, planes);
+}
+
+// Drawn through the engine's debug rendering, of visible bodies.
+void WorldView::addImmediate(const OverlayScene& scene) {
+  const auto states = scene.world.states();
+  for (uint32_t body = 0; body < states.size(); ++body)
+    debug_.setVisible(body, scene.exists(body) && scene.shows(body));
+  if (scene.overlays.contacts) addContacts(scene);
+  if (scene.overlays.joints) addJoints(scene);
+  if (scene.overlays.islands) addIslands(scene);
+  recorder_.pick = 0;
+  addMeshes(scene);
+  if (scene.overlays.world) debug_.renderWorld(scene.world.def().center, scene.world.def().extent);
+  addBodyOverlays(scene);
+}
+
+void WorldView::add(const pfx::World& world, const Overlays& overlays, const ViewExtras& extras) {
   const auto states = world.states();
   debug_.resetVisible(uint32_t(states.size()));
   for (uint32_t body = 0; body < states.size(); ++body)
     debug_.setVisible(body, world.isValid(world.bodyId(body)));
+  recorder_.body_colors = overlays.islands ? islandColors(world) : std::vector<Color>();
   debug_.renderSolids(states, world.collidables());
-  if (overlays.contacts) addContacts(world);
-  if (overlays.joints) addJoints(world);
-  if (overlays.islands) addIslands(world);
-  recorder_.pick = 0;
-  if (!marks_.empty()) {
-    debug_.scale = kNormalLength;
-    debug_.renderLargeMeshByFlag(states, world.collidables());
-  }
-  if (overlays.world) debug_.renderWorld(world.def().center, world.def().extent);
-  addBodyOverlays(world, overlays);
+  if (overlays == Overlays{} && marks_.empty()) return;
+
+  const bool filtered = overlays.selection_only && !extras.selected.empty();
+  const OverlayScene scene{world, overlays, list_, kUnitShare * (list_.camera.target - list_.camera.eye).norm(),
+                           filtered ? &extras.selected : nullptr};
+  addImmediate(scene);
+  if (overlays.inertia) addMasses(scene);
+  if (overlays.names) addNames(scene);
+  if (overlays.trails && extras.trails) addTrails(scene, *extras.trails);
+  addContactOverlays(scene);
+  addJointOverlays(scene);
+  if (overlays.sleep || overlays.solver) addIslandLabels(scene);
 }
 
 void WorldView::addTriangle(const pfx::World& world, uint32_t body, uint32_t facet, Color color) {

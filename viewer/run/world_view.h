@@ -1,13 +1,21 @@
 // Fills a draw list with a world: its bodies as solids, and the overlays that were asked for.
 #pragma once
 
+#include <map>
+
 #include "pfx/high_level/world/world.h"
 #include "pfx/util/debug_render/debug_render.h"
 #include "viewer/draw_list/draw_list.h"
 #include "viewer/draw_list/recorder.h"
-#include "viewer/run/overlays.h"
+#include "viewer/run/overlay_scene.h"
 
 namespace viewer {
+
+// What is drawn beside the world itself.
+struct ViewExtras {
+  std::vector<uint8_t> selected = {};  // by body; empty: nothing is selected
+  const Trails* trails = nullptr;
+};
 
 class WorldView {
  public:
@@ -15,7 +23,7 @@ class WorldView {
   explicit WorldView(DrawList& list) : list_(list), recorder_(list), debug_(recorder_.callbacks()) {}
 
   // Adds everything; call it between begin() and end() of the list.
-  void add(const pfx::World& world, const Overlays& overlays);
+  void add(const pfx::World& world, const Overlays& overlays, const ViewExtras& extras = {});
   // Shows which triangle is meant: its outline, its normal, and its face tinted.
   void addTriangle(const pfx::World& world, uint32_t body, uint32_t facet, Color color);
 
@@ -24,10 +32,12 @@ class WorldView {
   pfx::MeshDraw markOf(const pfx::MeshTriangleId& triangle) const;
 
  private:
-  void addBodyOverlays(const pfx::World& world, const Overlays& overlays);
-  void addContacts(const pfx::World& world);
-  void addJoints(const pfx::World& world);
-  void addIslands(const pfx::World& world);
+  void addImmediate(const OverlayScene& scene);
+  void addBodyOverlays(const OverlayScene& scene);
+  void addContacts(const OverlayScene& scene);
+  void addJoints(const OverlayScene& scene);
+  void addIslands(const OverlayScene& scene);
+  void addMeshes(const OverlayScene& scene);
 
   DrawList& list_;
   Recorder recorder_;

@@ -90,6 +90,7 @@ class PfxContactManifold {
   void countStep() { duration_ = static_cast<PfxUInt16>(num_points_ == 0 ? 0 : SCE_PFX_MIN(duration_ + 1, 0xffff)); }
 
  private:
+  friend struct PfxSerializeAccess;
   PfxUInt16 body_a_, body_b_;
   PfxUInt16 duration_;
   PfxUInt16 num_points_;

@@ -87,6 +87,7 @@ class PfxRigidState {
 
  private:
   friend struct NativeLayout;
+  friend struct PfxSerializeAccess;
   PfxFloat position_[3];
   PfxFloat orientation_[4];
   PfxFloat linear_velocity_[3];
@@ -130,6 +131,7 @@ class PfxRigidBody {
   void setUserData(void* data) { user_data_ = data; }
 
  private:
+  friend struct PfxSerializeAccess;
   PfxMatrix3 inertia_, inertia_inv_;
   PfxFloat mass_, mass_inv_, restitution_, friction_;
   void* user_data_;

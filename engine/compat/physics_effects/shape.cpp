@@ -86,6 +86,8 @@ PfxInt32 PfxCollidable::finish() {
     pfx::Collidable one;
     one.inline_shape = native(getShape(i));
     if (one.finish() != pfx::Error::Ok) return SCE_PFX_ERR_INVALID_VALUE;
+    const bool solid = getShape(i).getType() == kPfxShapeLargeTriMesh || one.half_extent.minCoeff() > 0.0f;
+    if (!solid) return SCE_PFX_ERR_INVALID_VALUE;
     box.extend(pfx::Aabb{one.center - one.half_extent, one.center + one.half_extent});
   }
   setCenter(compat(box.center()));

@@ -97,6 +97,7 @@ class PfxShape {
 
  private:
   friend struct NativeLayout;
+  friend struct PfxSerializeAccess;
   void set(ePfxShapeType type, PfxFloat a = 0.0f, PfxFloat b = 0.0f, PfxFloat c = 0.0f) {
     type_ = static_cast<PfxUInt8>(type), size_[0] = a, size_[1] = b, size_[2] = c, mesh_ = nullptr;
   }
@@ -140,6 +141,7 @@ class PfxCollidable {
   void setUserData(void* data) { user_data_ = data; }
 
  private:
+  friend struct PfxSerializeAccess;
   PfxShape own_shape_;
   PfxShape* shapes_;
   PfxUInt16 shape_ids_[SCE_PFX_MAX_SHAPES];

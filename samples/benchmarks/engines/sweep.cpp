@@ -30,18 +30,32 @@ struct CaseBodies final : Scene {
 struct Setting {
   const char* name;
   pfx::JointSolver joints;
+  pfx::ContactSolver contacts;
 };
+
+// The usual setting first, then the solvers that it chooses from.
+std::vector<Setting> settingsFor(const Case& c, const pfx::World& start) {
+  using enum pfx::ContactSolver;
+  std::vector<Setting> settings = {{"pfx", pfx::JointSolver::Auto, Auto}};
+  if (c.free) return settings;
+  if (!start.joints().empty()) {
+    settings.push_back({"pfx, soft joints", pfx::JointSolver::Soft, Auto});
+  } else {
+    settings.push_back({"pfx, soft contacts", pfx::JointSolver::Auto, Soft});
+    settings.push_back({"pfx, Newton", pfx::JointSolver::Auto, Newton});
+  }
+  return settings;
+}
 
 std::vector<Contestant> contestants(const Case& c, const pfx::World& start, bool with_peers) {
   std::vector<Contestant> all;
-  std::vector<Setting> settings = {{"pfx", pfx::JointSolver::Auto}};
-  if (!start.joints().empty()) settings.push_back({"pfx, soft joints", pfx::JointSolver::Soft});
-  for (const Setting& setting : settings)
+  for (const Setting& setting : settingsFor(c, start))
     all.push_back({setting.name,
                    [&c, setting](int substeps) {
                      pfx::WorldDef def = worldDef(c);
                      def.substeps = c.free ? 1 : substeps;
                      def.joint_solver = setting.joints;
+                     def.contact_solver = setting.contacts;
                      return makePfxEngine(def, std::make_unique<CaseBodies>(c));
                    },
                    !c.free});

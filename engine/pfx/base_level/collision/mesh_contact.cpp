@@ -7,6 +7,8 @@
 #include "pfx/base_level/collision/mesh_body.h"
 #include "pfx/base_level/collision/mesh_clusters.h"
 #include "pfx/base_level/collision/mesh_facet.h"
+#include "pfx/base_level/math/finite.h"
+#include "pfx/base_level/shape/collidable.h"
 #include "pfx/base_level/shape/mesh_query.h"
 
 namespace pfx {
@@ -64,6 +66,8 @@ void writeManifold(const PairFrames& frames, const LargeMesh& mesh, const MeshCl
 int collideMesh(const CollideInput& input, MeshContactScratch& scratch, std::vector<ContactManifold>& manifolds) {
   const bool mesh_is_a = input.shape_a.type() == ShapeType::LargeMesh;
   if (mesh_is_a == (input.shape_b.type() == ShapeType::LargeMesh)) return 0;
+  if (isMissing(input.shape_a.geometry) || isMissing(input.shape_b.geometry)) return 0;
+  if (!isFinite(relative(input.body_a, input.body_b))) return 0;
   const PairFrames frames{input, mesh_is_a};
   const LargeMesh& mesh = *std::get<const LargeMesh*>((mesh_is_a ? input.shape_a : input.shape_b).geometry);
   const Geometry& geometry = (mesh_is_a ? input.shape_b : input.shape_a).geometry;

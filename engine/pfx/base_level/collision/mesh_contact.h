@@ -47,11 +47,12 @@ struct MeshContactScratch {
   std::vector<MeshCluster> clusters;
   std::vector<Vec3> vertices;         // of the body, mesh frame
   std::vector<Plane> planes;          // of the body, mesh frame
+  std::vector<LocalContact> parts;    // of compounds, frame of body A
 };
 
 // Appends the manifolds of a pair of which one shape is a large mesh and the other is convex: normals in world axes from
 // A to B, points as collideShapes() gives them, with triangle and barycentric coordinates. Returns how many it
-// appended; zero also when neither or both shapes are meshes. `input.cache` is not used.
+// appended; zero also when neither or both shapes are meshes, one is missing, or a pose is not finite. `input.cache` is not used.
 int collideMesh(const CollideInput& input, MeshContactScratch& scratch, std::vector<ContactManifold>& manifolds);
 
 }  // namespace pfx

@@ -6,6 +6,8 @@
 
 #include "pfx/base_level/collision/convex_core.h"
 #include "pfx/base_level/collision/pair_functions.h"
+#include "pfx/base_level/math/finite.h"
+#include "pfx/base_level/shape/collidable.h"
 
 namespace pfx {
 namespace {
@@ -93,6 +95,7 @@ int collideShapes(const CollideInput& in, ContactManifold& out) {
   out.num_points = 0;
   const Transform bodies = relative(in.body_a, in.body_b);
   if (in.cache != nullptr && provablyApart(*in.cache, bodies, in.margin)) return 0;
+  if (!isFinite(bodies) || isMissing(in.shape_a.geometry) || isMissing(in.shape_b.geometry)) return 0;
 
   const bool flipped = pairFunction(in.shape_a.type(), in.shape_b.type()) == nullptr;
   const Shape& first = flipped ? in.shape_b : in.shape_a;

@@ -35,7 +35,7 @@ struct CollideInput {
 
 // Writes the manifold of one pair: the normal in world axes from A to B, up to four points with a distance of
 // at most `margin`, each on the surfaces in the frames of the bodies. Impulses are zero. Returns the number
-// of points. Computed in the frame of A, so the distance from the world's origin does no harm beyond the
+// of points; none for poses that are not finite and for missing meshes. Computed in the frame of A, so the distance from the world's origin does no harm beyond the
 // rounding of the poses.
 int collideShapes(const CollideInput& input, ContactManifold& manifold);
 

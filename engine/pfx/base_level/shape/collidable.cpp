@@ -63,6 +63,12 @@ Aabb bounds(const LargeMesh* mesh, const Transform& pose) {
 
 }  // namespace
 
+bool isMissing(const Geometry& geometry) {
+  if (const auto* convex = std::get_if<const ConvexMesh*>(&geometry)) return *convex == nullptr || (*convex)->faces.empty();
+  if (const auto* large = std::get_if<const LargeMesh*>(&geometry)) return *large == nullptr || (*large)->numFacets() == 0;
+  return false;
+}
+
 Aabb shapeAabb(const Geometry& geometry, const Transform& pose) {
   return std::visit([&](const auto& g) { return bounds(g, pose); }, geometry);
 }

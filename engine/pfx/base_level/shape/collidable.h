@@ -29,6 +29,9 @@ struct Collidable {
   Error finish();
 };
 
+// Whether the geometry is a mesh that is not there, or one without faces.
+bool isMissing(const Geometry& geometry);
+
 // Bounds of one shape in the frame that `pose` maps the shape frame to (m). Empty for a missing mesh.
 Aabb shapeAabb(const Geometry& geometry, const Transform& pose);
 

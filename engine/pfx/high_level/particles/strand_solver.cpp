@@ -11,6 +11,13 @@ namespace {
 constexpr float kHeldBothEnds = 1e-3f;
 constexpr float kOtherwise = 1e-6f;
 
+// Tension turns a light particle to and fro faster than a sub-step can follow when h^2 T / l exceeds its mass by more
+// than this factor.
+constexpr float kMaxTurn = 0.5f;
+// Bound of the inertia that is lent to a particle, in its masses: a thread that no place can satisfy would ask for more
+// and more.
+constexpr float kMostLent = 1000.0f;
+
 }  // namespace
 
 void StrandSolver::assign(std::span<const ParticleStrand> strands) {
@@ -25,6 +32,7 @@ void StrandSolver::assign(std::span<const ParticleStrand> strands) {
   }
   direction_.resize(particle_.size()), error_.resize(particle_.size());
   upper_.resize(particle_.size()), change_.resize(particle_.size());
+  inverse_mass_.resize(particle_.size());
 }
 
 void StrandSolver::storeImpulses(std::span<ParticleStrand> strands) const {
@@ -41,19 +49,33 @@ void StrandSolver::linearize(const Range& s, std::span<const Vec3> x) {
   }
 }
 
+// A particle that carries much more than its own weight is given so much inertia that the directions of its links can
+// be followed (geometric stiffness on the diagonal, after S. Andrews, M. Teichmann, P. Kry, Geometric Stiffness for
+// Real-time Constrained Multibody Dynamics, 2017). What it carries is heavier still, so that the motion is the same.
+void StrandSolver::weigh(const Range& s, const ParticleSpan& p) {
+  float before = 0.0f;
+  for (uint32_t k = s.first; k < s.first + s.count; ++k) {
+    const float after = k + 1 < s.first + s.count ? std::abs(impulse_[k]) / length_[k] : 0.0f;
+    const float w = p.inverse_mass[particle_[k]];
+    inverse_mass_[k] = w / (1.0f + std::clamp(w * (before + after) - kMaxTurn, 0.0f, kMostLent));
+    before = after;
+  }
+}
+
 void StrandSolver::apply(const Range& s, const ParticleSpan& p, std::span<const float> impulse) const {
   Vec3 before = Vec3::Zero();
   for (uint32_t k = s.first; k + 1 < s.first + s.count; ++k) {
     const Vec3 pull = impulse[k] * direction_[k];
-    p.position[particle_[k]] += p.inverse_mass[particle_[k]] * (pull - before);
+    p.position[particle_[k]] += inverse_mass_[k] * (pull - before);
     before = pull;
   }
-  const uint32_t last = particle_[s.first + s.count - 1];
-  p.position[last] -= p.inverse_mass[last] * before;
+  const uint32_t last = s.first + s.count - 1;
+  p.position[particle_[last]] -= inverse_mass_[last] * before;
 }
 
 void StrandSolver::warmStart(uint32_t first, uint32_t last, const ParticleSpan& p, float share) {
   for (const Range& s : std::span(strands_).subspan(first, last - first)) {
+    weigh(s, p);
     linearize(s, p.position);
     for (uint32_t k = s.first; k + 1 < s.first + s.count; ++k) impulse_[k] *= share;
     apply(s, p, impulse_);
@@ -70,7 +92,7 @@ void StrandSolver::project(uint32_t first, uint32_t last, const ParticleSpan& p)
     const bool is_held = p.inverse_mass[particle_[s.first]] == 0.0f && p.inverse_mass[particle_[end]] == 0.0f;
     const float margin = 1.0f + (is_held ? kHeldBothEnds : kOtherwise);
     for (uint32_t k = s.first; k < end; ++k) {
-      const float w0 = p.inverse_mass[particle_[k]], w1 = p.inverse_mass[particle_[k + 1]];
+      const float w0 = inverse_mass_[k], w1 = inverse_mass_[k + 1];
       const float diagonal = (w0 + w1) * margin + softness;
       const float pivot = diagonal - (k > s.first ? below * upper_[k - 1] : 0.0f);
       const float inverse = pivot > 0.0f ? 1.0f / pivot : 0.0f;

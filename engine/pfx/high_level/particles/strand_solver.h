@@ -19,7 +19,7 @@ class StrandSolver {
   void assign(std::span<const ParticleStrand> strands);
   void storeImpulses(std::span<ParticleStrand> strands) const;  // those of assign()
 
-  // Strands first .. last - 1; they must share no particle.
+  // Strands first .. last - 1; they must share no particle. A sub-step starts with warmStart().
   void warmStart(uint32_t first, uint32_t last, const ParticleSpan& particles, float share);
   void project(uint32_t first, uint32_t last, const ParticleSpan& particles);
 
@@ -31,6 +31,7 @@ class StrandSolver {
     uint32_t first, count;  // particles
     float compliance;
   };
+  void weigh(const Range& strand, const ParticleSpan& particles);
   void linearize(const Range& strand, std::span<const Vec3> position);
   void apply(const Range& strand, const ParticleSpan& particles, std::span<const float> impulse) const;
 
@@ -40,6 +41,7 @@ class StrandSolver {
   // Scratch of a projection, by link.
   std::vector<Vec3> direction_;
   std::vector<float> error_, upper_, change_;
+  std::vector<float> inverse_mass_;  // 1/kg, by strand particle, as the sub-step takes it to be
 };
 
 }  // namespace pfx

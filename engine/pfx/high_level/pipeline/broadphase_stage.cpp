@@ -50,16 +50,6 @@ void restChangedBodies(World::Impl& w) {
   changed.clear();
 }
 
-// Removes pairs that a joint keeps from colliding; both lists ascend.
-void dropJointedPairs(World::Impl& w, std::vector<Pair>& pairs) {
-  auto apart = w.joint_store.keptApart();
-  if (apart.empty()) return;
-  std::erase_if(pairs, [&](const Pair& p) {
-    while (!apart.empty() && apart.front() < p.key()) apart = apart.subspan(1);
-    return !apart.empty() && apart.front() == p.key();
-  });
-}
-
 }  // namespace
 
 void begin(World::Impl& w) {
@@ -88,7 +78,7 @@ void findPairsAnew(World::Impl& w) {
   makeProxies(w, w.all_bodies, w.proxies);
   const auto found = w.sweep.findPairs(w.proxies, axisOfLargestVariance(w.proxies), &w.tasks);
   w.pairs.assign(found.begin(), found.end());
-  dropJointedPairs(w, w.pairs);
+  dropApart(w, w.pairs);
   w.contacts.clear();
   for (Pair& p : w.pairs) p.contact_id = w.contacts.add();
 }
@@ -103,7 +93,7 @@ void updatePairs(World::Impl& w) {
   updateTree(w);
   const auto found = w.tree.activePairs();
   w.next_pairs.assign(found.begin(), found.end());
-  dropJointedPairs(w, w.next_pairs);
+  dropApart(w, w.next_pairs);
   auto out = w.next_pairs.begin();
   comparePairs(
       w.pairs, w.next_pairs, [&](const Pair&) { (out++)->contact_id = w.contacts.add(); },

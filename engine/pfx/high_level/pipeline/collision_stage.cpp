@@ -44,6 +44,7 @@ void gatherConstraints(World::Impl& w) {
       w.any_strained = w.any_strained || w.constraints.back().strain != ContactStrain::None;
     }
   }
+  modifyContacts(w);
   for (const ContactConstraint& c : w.constraints) w.needSolverBody(c.solver_a), w.needSolverBody(c.solver_b);
   w.free_bodies.clear();
   for (uint32_t i : w.active)

@@ -16,6 +16,7 @@ namespace {
 // the first, and stops when nearer than the second, which is within the margin that makes contacts.
 constexpr float kFast = 0.5f;
 constexpr float kStop = 0.005f;
+constexpr uint32_t kPairGrain = 8;
 
 Vec3 rotationVector(const Quat& from, const Quat& to) {
   Quat turn = to * from.conjugate();
@@ -110,14 +111,21 @@ void stopAtImpacts(World::Impl& w) {
   if (!any) return;
 
   const auto fast = [&](uint32_t i) { return moves(w.store.states[i]) && w.is_fast[i]; };
-  for (const Pair& pair : w.pairs) {
-    if ((!fast(pair.body_a) && !fast(pair.body_b)) || !w.solves(pair)) continue;
-    const float size = std::min(w.store.size[pair.body_a], w.store.size[pair.body_b]);
-    const Impact impact = firstImpact(w, pair, kStop * size);
+  w.fast_pairs.clear();
+  for (uint32_t i = 0; i < w.pairs.size(); ++i)
+    if ((fast(w.pairs[i].body_a) || fast(w.pairs[i].body_b)) && w.solves(w.pairs[i])) w.fast_pairs.push_back({i, {}});
+  w.tasks.parallelFor(static_cast<uint32_t>(w.fast_pairs.size()), kPairGrain, [&](TaskRange r) {
+    for (FastPair& f : std::span(w.fast_pairs).subspan(r.begin, r.end - r.begin)) {
+      const Pair& pair = w.pairs[f.pair];
+      f.impact = firstImpact(w, pair, kStop * std::min(w.store.size[pair.body_a], w.store.size[pair.body_b]));
+    }
+  });
+  for (const FastPair& f : w.fast_pairs) {
+    const Pair& pair = w.pairs[f.pair];
     const auto stop = [&](uint32_t body, uint32_t by) {
       const bool can_stop = fast(body) && isDynamic(w.store.states[body].motion_type);
-      if (can_stop && impact.fraction < w.stops[body].fraction)
-        w.stops[body] = {impact.fraction, impact.point, by};
+      if (can_stop && f.impact.fraction < w.stops[body].fraction)
+        w.stops[body] = {f.impact.fraction, f.impact.point, by};
     };
     stop(pair.body_a, pair.body_b);
     stop(pair.body_b, pair.body_a);

@@ -17,9 +17,11 @@ void World::Impl::wake(uint32_t body) {
   do {
     store.states[i].asleep = false;
     store.states[i].sleep_count = 0;
+    if (def.report_events) events.next_woke.push_back({i, store.generations[i]});
     i = next_sleeper[i];
   } while (i != body);
   active_changed = true;
+  counts_are_current = false;
   has_woken = true;
 }
 
@@ -71,6 +73,7 @@ void layDown(World::Impl& w, std::span<const uint32_t> bodies) {
     s.asleep = true;
     s.linear_velocity = s.angular_velocity = Vec3::Zero();
     w.next_sleeper[bodies[k]] = bodies[(k + 1) % bodies.size()];
+    if (w.def.report_events) w.events.next_fell_asleep.push_back({bodies[k], w.store.generations[bodies[k]]});
   }
   w.active_changed = true;
 }

@@ -2,6 +2,7 @@
 
 #include <array>
 #include <chrono>
+#include <utility>
 
 #include "pfx/high_level/pipeline/stages.h"
 #include "pfx/high_level/world/world_impl.h"
@@ -24,12 +25,20 @@ bool hasFreeComponents(const World::Impl& w) { return !w.free_components.empty()
 bool hasFreeBodies(const World::Impl& w) { return !w.free_bodies.empty(); }
 bool hasKeyframes(const World::Impl& w) { return w.moving.size() > w.active.size() || !w.keyframes.empty(); }
 bool hasSleepers(const World::Impl& w) { return w.def.sleeping && w.num_sleepers > 0 && hasPairs(w); }
+bool reportsApproaches(const World::Impl& w) { return w.def.report_events && hasPairs(w); }
+bool reportsEvents(const World::Impl& w) {
+  const EventStore& e = w.events;
+  return w.def.report_events && (hasPairs(w) || !e.touching.empty() || !e.next_woke.empty() || !e.woke.empty() ||
+                                 !e.next_fell_asleep.empty() || !e.fell_asleep.empty() || !e.end.empty() || !e.leave.empty());
+}
+bool hasModified(const World::Impl& w) { return !w.modified.empty(); }
 bool hasParticles(const World::Impl& w) { return !w.particle_store.empty(); }
 bool sleeps(const World::Impl& w) { return w.def.sleeping && !w.active.empty(); }
 
 constexpr std::array kSimple = {
     Stage{"broad phase", hasSeveralBodies, stage::findPairsAnew},
     Stage{"collision", hasPairs, stage::detectCollisions},
+    Stage{"approaches", reportsApproaches, stage::noteApproaches},
     Stage{"constraints", hasPairs, stage::gatherConstraints},
     Stage{"joints", hasJoints, stage::gatherJoints},
     Stage{"choose solvers", mayNeedNewton, stage::chooseSolvers},
@@ -43,12 +52,14 @@ constexpr std::array kSimple = {
     Stage{"key frames", hasKeyframes, stage::followKeyframes},
     Stage{"continuous", hasPairs, stage::stopAtImpacts},
     Stage{"particles", hasParticles, stage::moveParticles},
+    Stage{"events", reportsEvents, stage::reportEvents},
 };
 
 constexpr std::array kStable = {
     Stage{"broad phase", hasSeveralBodies, stage::updatePairs},
     Stage{"collision", hasPairs, stage::detectCollisions},
     Stage{"wake", hasSleepers, stage::wakeTouched},
+    Stage{"approaches", reportsApproaches, stage::noteApproaches},
     Stage{"constraints", hasPairs, stage::gatherConstraints},
     Stage{"joints", hasJoints, stage::gatherJoints},
     Stage{"choose solvers", mayNeedNewton, stage::chooseSolvers},
@@ -62,8 +73,10 @@ constexpr std::array kStable = {
     Stage{"key frames", hasKeyframes, stage::followKeyframes},
     Stage{"continuous", hasPairs, stage::stopAtImpacts},
     Stage{"store impulses", hasContacts, stage::storeImpulses},
+    Stage{"modified impulses", hasModified, stage::keepModifiedImpulses},
     Stage{"particles", hasParticles, stage::moveParticles},
     Stage{"sleep", sleeps, stage::putToSleep},
+    Stage{"events", reportsEvents, stage::reportEvents},
 };
 
 }  // namespace
@@ -77,8 +90,11 @@ void runStages(World::Impl& world) {
   using Clock = std::chrono::steady_clock;
   world.times.clear();
   stage::begin(world);
+  uint64_t bit = 1;
   for (const Stage& s : stages(world.def.pipeline)) {
+    const uint64_t this_stage = std::exchange(bit, bit << 1);
     if (!s.needed(world)) continue;
+    world.stages_run |= this_stage;
     const auto start = Clock::now();
     s.run(world);
     world.times.push_back({s.name, std::chrono::duration<double, std::milli>(Clock::now() - start).count()});

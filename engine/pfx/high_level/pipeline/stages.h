@@ -28,6 +28,13 @@ void rememberPoses(World::Impl& world);      // where everything that moves star
 void stopAtImpacts(World::Impl& world);      // what moves far goes through nothing
 void moveParticles(World::Impl& world);       // particle systems, and the bodies that they push
 void putToSleep(World::Impl& world);         // islands at rest fall asleep
+void noteApproaches(World::Impl& world);     // how fast bodies come together that do not touch yet
+void reportEvents(World::Impl& world);       // touches that began and ended, bodies that fell asleep and woke
+void keepModifiedImpulses(World::Impl& world);  // of changed manifolds, for the next step
+
+// Parts of other stages.
+void dropApart(World::Impl& world, std::vector<Pair>& pairs);  // pairs that may not collide; ascending
+void modifyContacts(World::Impl& world);                       // lets the application change constraints
 
 // Motion of a body under outer forces, in sub-steps of h seconds.
 BodyMotion makeMotion(const World::Impl& world, uint32_t body, float h);

@@ -61,6 +61,10 @@ void buildScene(const SceneDef& scene, World& world) {
       place = joint.place;
       addJoint(joint, bodies, world);
     }
+    for (const SceneApart& apart : scene.apart) {
+      place = apart.place;
+      world.keepApart(bodies[apart.body_a], bodies[apart.body_b]);
+    }
   } catch (const std::invalid_argument& e) {
     throw SceneError(place + ": " + e.what());
   }

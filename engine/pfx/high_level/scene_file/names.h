@@ -13,6 +13,9 @@ inline constexpr NamedValue<Pipeline> kPipelines[] = {{"simple", Pipeline::Simpl
 inline constexpr NamedValue<JointSolver> kJointSolvers[] = {
     {"auto", JointSolver::Auto}, {"direct", JointSolver::Direct}, {"soft", JointSolver::Soft}};
 
+inline constexpr NamedValue<ContactSolver> kContactSolvers[] = {
+    {"auto", ContactSolver::Auto}, {"soft", ContactSolver::Soft}, {"newton", ContactSolver::Newton}};
+
 inline constexpr NamedValue<MotionType> kMotionTypes[] = {{"fixed", MotionType::Fixed},
                                                           {"active", MotionType::Active},
                                                           {"keyframe", MotionType::Keyframe},

@@ -1,7 +1,7 @@
 // Joints of a scene file: the kinds with their parameters, or the whole record.
 #include "pfx/high_level/scene_file/read_joint.h"
 
-#include <algorithm>
+#include <array>
 
 #include "pfx/high_level/scene_file/names.h"
 
@@ -146,8 +146,13 @@ std::pair<int, AxisConstraint> readAxis(XmlElement& e) {
 
 }  // namespace
 
-bool isJointTag(std::string_view tag) {
-  return std::any_of(std::begin(kKinds), std::end(kKinds), [&](const Kind& k) { return k.tag == tag; });
+std::span<const std::string_view> jointTags() {
+  static constexpr auto kTags = [] {
+    std::array<std::string_view, std::size(kKinds)> tags;
+    for (size_t i = 0; i < tags.size(); ++i) tags[i] = kKinds[i].tag;
+    return tags;
+  }();
+  return kTags;
 }
 
 SceneJoint readJoint(XmlElement& e) {

@@ -6,8 +6,8 @@
 
 namespace pfx {
 
-// Whether the tag names a joint: the kinds, and "joint" for a record that was put together axis by axis.
-bool isJointTag(std::string_view tag);
+// The elements that are joints: the kinds, and "joint" for a record that was put together axis by axis.
+std::span<const std::string_view> jointTags();
 
 // The joint without its bodies. Throws SceneError.
 SceneJoint readJoint(XmlElement& element);

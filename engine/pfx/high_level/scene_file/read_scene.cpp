@@ -1,4 +1,5 @@
 // Reading a scene file: world, materials, meshes, bodies, joints.
+#include <algorithm>
 #include <map>
 
 #include "pfx/high_level/scene_file/names.h"
@@ -24,10 +25,9 @@ class SceneReader {
     if (version != kVersion)
       scene.fail("version " + std::to_string(version) + ", this program reads " + std::to_string(kVersion));
     scene.finish();
-    for (XmlElement& e :
-         scene.children({"world", "material", "convex-mesh", "large-mesh", "body", "ball", "swing-twist", "hinge",
-                         "slider", "fixed", "universal", "distance", "gear", "joint"}))
-      readChild(e);
+    std::vector<std::string_view> known{"world", "material", "convex-mesh", "large-mesh", "body", "apart"};
+    known.insert(known.end(), jointTags().begin(), jointTags().end());
+    for (XmlElement& e : scene.children(known)) readChild(e);
     return std::move(out_);
   }
 
@@ -45,7 +45,8 @@ class SceneReader {
       meshes_[id] = mesh;
     }
     if (e.tag() == "body") readBody(e);
-    if (isJointTag(e.tag())) {
+    if (e.tag() == "apart") readApart(e);
+    if (std::ranges::find(jointTags(), e.tag()) != jointTags().end()) {
       const uint32_t a = bodyIndex(e, "body-a"), b = bodyIndex(e, "body-b");
       SceneJoint& joint = out_.joints.emplace_back(readJoint(e));
       joint.body_a = a;
@@ -66,9 +67,12 @@ class SceneReader {
     e.readName("pipeline", w.pipeline, scene_names::kPipelines);
     e.read("substeps", w.substeps);
     e.readName("joint-solver", w.joint_solver, scene_names::kJointSolvers);
+    e.readName("contact-solver", w.contact_solver, scene_names::kContactSolvers);
     e.read("sleeping", w.sleeping);
     e.read("sleep-velocity", w.sleep_velocity);
     e.read("sleep-steps", w.sleep_steps);
+    e.read("report-events", w.report_events);
+    e.read("hit-speed", w.hit_speed);
     e.read("center", w.center);
     e.read("extent", w.extent);
     e.finish();
@@ -126,6 +130,12 @@ class SceneReader {
       def.shapes.push_back(readShape(child));
     if (def.shapes.empty()) e.fail("the body has no shape");
     out_.bodies.push_back(std::move(body));
+  }
+
+  void readApart(XmlElement& e) {
+    const uint32_t a = bodyIndex(e, "body-a"), b = bodyIndex(e, "body-b");
+    e.finish();
+    out_.apart.push_back({a, b, e.place()});
   }
 
   Shape readShape(XmlElement& e) {

@@ -24,12 +24,19 @@ struct SceneJoint {
   std::string place;
 };
 
+// Two bodies that do not collide.
+struct SceneApart {
+  uint32_t body_a = 0, body_b = 0;  // indices of SceneDef::bodies
+  std::string place;
+};
+
 struct SceneDef {
   WorldDef world;
   std::deque<ConvexMesh> convex_meshes;  // addresses stay
   std::deque<LargeMesh> large_meshes;
   std::vector<SceneBody> bodies;
   std::vector<SceneJoint> joints;
+  std::vector<SceneApart> apart;
 };
 
 // Adds the scene's meshes, bodies and joints, in their order, to a world. Throws SceneError naming the place when the

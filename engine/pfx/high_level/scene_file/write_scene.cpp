@@ -42,6 +42,7 @@ class SceneWriter {
       if (exists(i)) writeBody(scene, i);
     for (uint32_t i = 0; i < world_.joints().size(); ++i)
       if (world_.jointLinks()[i].exists) writeJoint(scene, i);
+    for (const Pair& p : world_.pairsKeptApart()) writeApart(scene, p);
     std::ostringstream out;
     document_.save(out, "  ");
     return out.str();
@@ -80,9 +81,13 @@ class SceneWriter {
     set(node, "pipeline", nameOf(scene_names::kPipelines, w.pipeline));
     set(node, "substeps", w.substeps);
     set(node, "joint-solver", nameOf(scene_names::kJointSolvers, w.joint_solver));
+    if (w.contact_solver != WorldDef{}.contact_solver)
+      set(node, "contact-solver", nameOf(scene_names::kContactSolvers, w.contact_solver));
     set(node, "sleeping", w.sleeping);
     set(node, "sleep-velocity", w.sleep_velocity);
     set(node, "sleep-steps", w.sleep_steps);
+    setUnless(node, "report-events", w.report_events, WorldDef{}.report_events);
+    setUnless(node, "hit-speed", w.hit_speed, WorldDef{}.hit_speed);
     set(node, "center", w.center);
     set(node, "extent", w.extent);
   }
@@ -201,6 +206,12 @@ class SceneWriter {
     setUnless(node, "gear-zero-a", j.gear_zero_a, usual.gear_zero_a);
     setUnless(node, "gear-zero-b", j.gear_zero_b, usual.gear_zero_b);
     for (int axis = 0; axis < kNumJointAxes; ++axis) writeAxis(node, axis, j.axis[axis]);
+  }
+
+  static void writeApart(pugi::xml_node& scene, const Pair& pair) {
+    pugi::xml_node node = scene.append_child("apart");
+    set(node, "body-a", pair.body_a);
+    set(node, "body-b", pair.body_b);
   }
 
   static void writeAxis(pugi::xml_node& joint, int axis, const AxisConstraint& c) {

@@ -4,28 +4,12 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <numeric>
 
+#include "pfx/high_level/scene_file/nearest_name.h"
 #include "pfx/high_level/scene_file/scene_file.h"
 
 namespace pfx {
 namespace {
-
-// Letters to insert, delete or replace. Source: R. Wagner, M. Fischer, The String-to-String Correction Problem, 1974.
-size_t editDistance(std::string_view a, std::string_view b) {
-  std::vector<size_t> row(b.size() + 1);
-  std::iota(row.begin(), row.end(), size_t(0));
-  for (size_t i = 0; i < a.size(); ++i) {
-    size_t diagonal = row[0];
-    row[0] = i + 1;
-    for (size_t j = 0; j < b.size(); ++j) {
-      const size_t replaced = diagonal + (a[i] != b[j]);
-      diagonal = row[j + 1];
-      row[j + 1] = std::min({replaced, row[j] + 1, diagonal + 1});
-    }
-  }
-  return row.back();
-}
 
 bool isSpace(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' || c == ','; }
 
@@ -59,18 +43,6 @@ void forEachWord(std::string_view text, Fn&& fn) {
 }
 
 }  // namespace
-
-std::string_view nearestName(std::string_view wanted, std::span<const std::string_view> known) {
-  constexpr size_t kLongest = 64;  // of a name worth comparing
-  std::string_view best;
-  size_t least = std::max<size_t>(2, wanted.size() / 2) + 1;
-  if (wanted.size() > kLongest) return best;
-  for (std::string_view name : known) {
-    const size_t distance = editDistance(wanted, name);
-    if (distance < least) least = distance, best = name;
-  }
-  return best;
-}
 
 std::string XmlSource::place(size_t offset, std::string_view element) const {
   const auto end = text.begin() + static_cast<std::ptrdiff_t>(std::min(offset, text.size()));
@@ -194,18 +166,24 @@ void XmlElement::requireKnown(const std::string& what, std::string_view got,
        (nearest.empty() ? "" : "; did you mean \"" + std::string(nearest) + "\"?"));
 }
 
-std::vector<XmlElement> XmlElement::children(std::initializer_list<std::string_view> known) const {
+std::vector<XmlElement> XmlElement::children(std::span<const std::string_view> known) const {
   std::vector<XmlElement> out;
   for (pugi::xml_node child : node_.children()) {
+    if (child.type() == pugi::node_pcdata || child.type() == pugi::node_cdata)
+      source_.fail(static_cast<size_t>(child.offset_debug()), tag(), excerpt(child.value()) + " does not belong here");
     if (child.type() != pugi::node_element) continue;
     const XmlElement& element = out.emplace_back(source_, child);
-    element.requireKnown("element", element.tag(), std::span(known.begin(), known.size()));
+    element.requireKnown("element", element.tag(), known);
   }
   return out;
 }
 
 void XmlElement::finish() const {
-  for (pugi::xml_attribute a : node_.attributes()) requireKnown("attribute", a.name(), asked_);
+  for (pugi::xml_attribute a : node_.attributes()) {
+    requireKnown("attribute", a.name(), asked_);
+    for (pugi::xml_attribute b = a.next_attribute(); b; b = b.next_attribute())
+      if (std::string_view(a.name()) == b.name()) fail("the attribute " + std::string(a.name()) + " is there twice");
+  }
 }
 
 }  // namespace pfx

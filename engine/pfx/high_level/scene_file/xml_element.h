@@ -15,9 +15,6 @@
 
 namespace pfx {
 
-// The one of `known` that is closest to `wanted` by its letters; empty when none is close.
-std::string_view nearestName(std::string_view wanted, std::span<const std::string_view> known);
-
 // The text of a file, for the lines in messages.
 struct XmlSource {
   std::string_view text;
@@ -69,10 +66,13 @@ class XmlElement {
   std::vector<float> numbers() const;
   std::vector<uint32_t> indices() const;
 
-  // The child elements, whose names must be among these.
-  std::vector<XmlElement> children(std::initializer_list<std::string_view> known) const;
+  // The child elements, whose names must be among these. Text between them is an error.
+  std::vector<XmlElement> children(std::span<const std::string_view> known) const;
+  std::vector<XmlElement> children(std::initializer_list<std::string_view> known) const {
+    return children(std::span(known.begin(), known.size()));
+  }
 
-  void finish() const;  // complains about attributes that nobody asked for
+  void finish() const;  // complains about attributes that nobody asked for, or that are there twice
 
  private:
   std::vector<float> floats(std::string_view name, std::initializer_list<size_t> counts);

@@ -15,7 +15,7 @@ namespace {
 
 using namespace snapshot_format;
 
-constexpr uint32_t kVersion = 1;
+constexpr uint32_t kVersion = 2;
 constexpr std::array<uint8_t, 8> kMagic = {'P', 'F', 'X', 'S', 'N', 'A', 'P', 0};
 constexpr size_t kHeaderBytes = 16, kSectionBytes = 20;
 
@@ -52,6 +52,8 @@ void ioWorld(A& a, Content& c) {
   ioEnum(a, d.pipeline, Pipeline::Stable);
   io(a, d.substeps);
   ioEnum(a, d.joint_solver, JointSolver::Soft);
+  ioEnum(a, d.contact_solver, ContactSolver::Newton);
+  io(a, d.report_events), io(a, d.hit_speed);
   io(a, d.sleeping), io(a, d.sleep_velocity), io(a, d.sleep_steps), io(a, d.center), io(a, d.extent);
   io(a, c.world.dt), io(a, c.world.step_count);
   if constexpr (A::kReads) a.require(d.substeps >= 1, "substeps are below 1");
@@ -69,9 +71,9 @@ void ioBodies(A& a, Content& c) {
   io(a, s.states), io(a, s.bodies), io(a, s.inertias), io(a, s.size), io(a, s.radius), io(a, s.names);
   io(a, s.generations), io(a, s.free_slots);
   ioList(a, s.collidables, [](A& archive, Collidable& k) { io(archive, k.center), io(archive, k.half_extent); });
-  MeshTable meshes{c.world.convex_meshes, c.world.large_meshes};
+  KeptMeshes meshes{c.world.convex_meshes, c.world.large_meshes};
   ioList(a, s.shapes, [&](A& archive, std::vector<Shape>& shapes) {
-    ioList(archive, shapes, [&](A& inner, Shape& shape) { io(inner, shape, meshes); });
+    ioList(archive, shapes, [&](A& inner, Shape& shape) { ioShape(inner, shape, meshes); });
   });
   io(a, c.world.keyframes), io(a, c.world.changed_bodies), io(a, c.world.reach);
   io(a, c.world.next_sleeper), io(a, c.world.has_woken);
@@ -82,12 +84,16 @@ void ioJoints(A& a, Content& c) {
   JointStore& s = c.world.joint_store;
   io(a, s.joints), io(a, s.links), io(a, s.names), io(a, s.break_force), io(a, s.break_torque);
   io(a, s.generations), io(a, s.free_slots), io(a, c.world.broken_joints);
+  std::vector<uint64_t> apart(c.world.apart.keys().begin(), c.world.apart.keys().end());
+  io(a, apart);
+  if constexpr (A::kReads) c.world.apart.assign(std::move(apart));
 }
 
 template <class A>
 void ioContacts(A& a, Content& c) {
   ioPairs(a, c.world.pairs, c.world.contacts);
   ioPairs(a, c.world.sleeping_pairs, c.world.contacts);
+  io(a, c.world.events.touching), io(a, c.world.events.next_fell_asleep), io(a, c.world.events.next_woke);
   ioList(a, c.leaves, [](A& archive, Leaf& leaf) { io(archive, leaf.body), io(archive, leaf.bounds); });
   ioList(a, c.rows, [](A& archive, RowMemory& row) {
     ioEnum(archive, row.state, RowState::Drive);
@@ -215,6 +221,7 @@ void checkJoints(const Reader& r, const World::Impl& w) {
   for (size_t size : {s.links.size(), s.names.size(), s.break_force.size(), s.break_torque.size(), s.generations.size()})
     r.require(size == n, "the arrays differ in length");
   r.require(areBelow(s.free_slots, n), "a joint is not there");
+  r.require(std::ranges::is_sorted(w.apart.keys()), "the pairs that are kept apart are not sorted");
   for (const JointLink& l : s.links)
     r.require(!l.exists || (std::max(l.body_a, l.body_b) < w.store.states.size() && l.body_a != l.body_b),
               "a joint links a body that is not there");
@@ -227,6 +234,9 @@ void checkContacts(const Reader& r, const World::Impl& w, std::span<const Leaf> 
     const auto not_ascending = [](const Pair& a, const Pair& b) { return a.key() >= b.key(); };
     r.require(std::adjacent_find(list->begin(), list->end(), not_ascending) == list->end(), "the pairs are not sorted");
   }
+  for (const TouchingPair& t : w.events.touching)
+    r.require(t.body_a.index < t.body_b.index && t.body_b.index < n, "a body that is not there touches");
+  r.require(std::ranges::is_sorted(w.events.touching, {}, &TouchingPair::key), "what touches is not sorted");
   for (const Leaf& leaf : leaves) r.require(leaf.body < n, "the broad phase has a body that is not there");
 }
 
@@ -323,6 +333,8 @@ void takeOver(World::Impl& w, World::Impl& from, const Memory& memory) {
   w.has_woken = from.has_woken;
   w.joint_store = std::move(from.joint_store);
   w.broken_joints = std::move(from.broken_joints);
+  w.apart = std::move(from.apart);
+  w.events = std::move(from.events);
   w.pairs = std::move(from.pairs);
   w.sleeping_pairs = std::move(from.sleeping_pairs);
   w.contacts = std::move(from.contacts);
@@ -335,7 +347,13 @@ void takeOver(World::Impl& w, World::Impl& from, const Memory& memory) {
   w.free_components.clear();
   w.joint_step.clear();
   w.joint_components = JointComponents{};
+  w.islands = Islands{};
+  w.island_links.clear();
+  w.island_link_pairs.clear();
+  w.island_pairs.clear();
   w.tree_is_current = false;
+  w.counts_are_current = false;
+  w.modified.clear();
   w.times.clear();
   rememberRows(w, memory.rows);
 }

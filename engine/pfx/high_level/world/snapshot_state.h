@@ -1,45 +1,21 @@
-// Snapshots: the bytes of bodies, joints and contacts.
+// Snapshots: the fields of what only a world knows; records.h and shape_records.h have the others.
 #pragma once
 
-#include "pfx/high_level/world/snapshot_shapes.h"
+#include "pfx/high_level/world/snapshot_archive.h"
 #include "pfx/high_level/world/world_impl.h"
+#include "pfx/util/serialize/records.h"
+#include "pfx/util/serialize/shape_records.h"
 
 namespace pfx::snapshot_format {
 
-template <class A>
-void io(A& a, RigidState& s) {
-  io(a, s.position), io(a, s.orientation), io(a, s.linear_velocity), io(a, s.angular_velocity);
-  io(a, s.body_id), io(a, s.filter_self), io(a, s.filter_target), io(a, s.sleep_count);
-  ioEnum(a, s.motion_type, MotionType::Trigger);
-  io(a, s.can_sleep), io(a, s.asleep);
-}
-
-template <class A>
-void io(A& a, RigidBody& b) {
-  io(a, b.mass), io(a, b.inertia), io(a, b.restitution), io(a, b.friction), io(a, b.linear_damping);
-  io(a, b.angular_damping), io(a, b.rolling_resistance), io(a, b.gravity_scale);
-}
-
-template <class A>
-void io(A& a, Inertia& i) {
-  io(a, i.body), io(a, i.inverse_body), io(a, i.spherical);
-}
-
-template <class A>
-void io(A& a, AxisConstraint& c) {
-  ioEnum(a, c.lock, JointLock::Fixed);
-  io(a, c.lower), io(a, c.upper), io(a, c.bias), io(a, c.damping), io(a, c.weight), io(a, c.max_force);
-  io(a, c.motor_speed), io(a, c.motor_max_force), io(a, c.spring_frequency), io(a, c.spring_damping);
-  io(a, c.spring_target), io(a, c.force);
-}
-
-template <class A>
-void io(A& a, Joint& j) {
-  ioEnum(a, j.kind, JointKind::Gear);
-  io(a, j.cone), io(a, j.axis), io(a, j.anchor_a), io(a, j.anchor_b), io(a, j.frame_a), io(a, j.frame_b);
-  io(a, j.gear_ratio), io(a, j.gear_angle_a), io(a, j.gear_angle_b), io(a, j.gear_zero_a), io(a, j.gear_zero_b);
-  io(a, j.force), io(a, j.torque);
-}
+// Found by the archives, which live in this namespace.
+using serial::enumField;
+using serial::field;
+using serial::io;
+using serial::ioEnum;
+using serial::ioList;
+using serial::ioShape;
+using serial::kNoMesh;
 
 template <class A>
 void io(A& a, JointLink& l) {
@@ -62,18 +38,38 @@ void io(A& a, JointId& id) {
 }
 
 template <class A>
-void io(A& a, ContactPoint& p) {
-  io(a, p.local_a), io(a, p.local_b), io(a, p.distance), io(a, p.feature), io(a, p.triangle), io(a, p.barycentric);
-  io(a, p.normal_impulse), io(a, p.friction_impulse);
+void io(A& a, BodyId& id) {
+  io(a, id.index), io(a, id.generation);
 }
 
 template <class A>
-void io(A& a, ContactManifold& m) {
-  io(a, m.normal), io(a, m.local_normal), io(a, m.num_points);
-  if constexpr (A::kReads)
-    a.require(m.num_points >= 0 && m.num_points <= kMaxContactPoints, "a manifold has too many points");
-  for (int i = 0; i < m.num_points; ++i) io(a, m.points[static_cast<size_t>(i)]);
+void io(A& a, TouchingPair& t) {
+  io(a, t.body_a), io(a, t.body_b), io(a, t.is_trigger);
 }
+
+// Meshes of a world by number.
+struct KeptMeshes {
+  std::deque<ConvexMesh>& convex;
+  std::deque<LargeMesh>& large;
+
+  uint32_t numberOf(const ConvexMesh* mesh) const { return numberIn(convex, mesh); }
+  uint32_t numberOf(const LargeMesh* mesh) const { return numberIn(large, mesh); }
+  bool find(uint32_t number, const ConvexMesh*& mesh) const { return findIn(convex, number, mesh); }
+  bool find(uint32_t number, const LargeMesh*& mesh) const { return findIn(large, number, mesh); }
+
+ private:
+  template <class Mesh>
+  static uint32_t numberIn(const std::deque<Mesh>& kept, const Mesh* mesh) {
+    const auto it = std::ranges::find_if(kept, [&](const Mesh& m) { return &m == mesh; });
+    return it == kept.end() ? kNoMesh : static_cast<uint32_t>(it - kept.begin());
+  }
+  template <class Mesh>
+  static bool findIn(const std::deque<Mesh>& kept, uint32_t number, const Mesh*& mesh) {
+    if (number >= kept.size()) return false;
+    mesh = &kept[number];
+    return true;
+  }
+};
 
 template <class A>
 void io(A& a, PairCache& c) {

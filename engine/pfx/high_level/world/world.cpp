@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
+#include <utility>
 
 #include "pfx/base_level/math/trig.h"
 #include "pfx/high_level/pipeline/stages.h"
@@ -30,6 +31,13 @@ void World::Impl::refreshActive() {
     if (isDynamic(s.motion_type)) active.push_back(i);
   }
   active_changed = false;
+}
+
+void World::Impl::hasChanged(uint32_t body) {
+  active_changed = true;
+  tree_is_current = false;
+  counts_are_current = false;
+  changed_bodies.push_back(body);
 }
 
 void World::Impl::forgetPairs(uint32_t body) {
@@ -83,9 +91,7 @@ LargeMesh* World::keep(LargeMesh mesh) { return &impl_->large_meshes.emplace_bac
 
 BodyId World::addBody(const BodyDef& def) {
   const BodyId id = impl_->store.add(def);
-  impl_->active_changed = true;
-  impl_->tree_is_current = false;
-  impl_->changed_bodies.push_back(id.index);
+  impl_->hasChanged(id.index);
   return id;
 }
 
@@ -98,11 +104,10 @@ void World::removeBody(BodyId id) {
     const JointLink& link = impl_->joint_store.links[i];
     if (link.exists && (link.body_a == id.index || link.body_b == id.index)) removeJoint(jointId(i));
   }
+  impl_->apart.forgetBody(id.index);
   impl_->particle_store.forgetBody(id.index);
   impl_->store.remove(id.index);
-  impl_->active_changed = true;
-  impl_->tree_is_current = false;
-  impl_->changed_bodies.push_back(id.index);
+  impl_->hasChanged(id.index);
 }
 
 void World::setShapes(BodyId id, std::span<const Shape> shapes) {
@@ -120,6 +125,7 @@ void World::step(float dt) {
     throw std::invalid_argument("world: dt = " + std::to_string(dt) + " s, must be >= 0");
   if (dt == 0.0f) return;
   impl_->dt = dt;
+  impl_->counts_are_current = false;
   runStages(*impl_);
   ++impl_->step_count;
 }
@@ -134,9 +140,7 @@ RigidState& World::state(BodyId id) {
   if (!isValid(id)) throw std::invalid_argument("world: the body does not exist");
   impl_->wake(id.index);
   impl_->wakeNeighbours(id.index);
-  impl_->active_changed = true;
-  impl_->tree_is_current = false;
-  impl_->changed_bodies.push_back(id.index);
+  impl_->hasChanged(id.index);
   return impl_->store.states[id.index];
 }
 
@@ -165,6 +169,7 @@ JointId World::addJoint(const JointDef& def) {
   impl_->wake(def.body_a.index);
   impl_->wake(def.body_b.index);
   impl_->revivePairs();
+  impl_->counts_are_current = false;
   const auto states = impl_->store.states.begin();
   return impl_->joint_store.add(def, makeJoint(states[def.body_a.index], states[def.body_b.index], def.params));
 }
@@ -175,6 +180,7 @@ void World::removeJoint(JointId id) {
   impl_->wake(link.body_a);
   impl_->wake(link.body_b);
   impl_->revivePairs();
+  impl_->counts_are_current = false;
   impl_->joint_store.remove(id.index);
 }
 
@@ -187,6 +193,43 @@ JointStrength World::jointStrength(uint32_t index) const {
   return {impl_->joint_store.break_force.at(index), impl_->joint_store.break_torque.at(index)};
 }
 std::span<const JointId> World::brokenJoints() const { return impl_->broken_joints; }
+
+void World::keepApart(BodyId a, BodyId b) {
+  state(a), state(b);
+  if (a == b) throw std::invalid_argument("world: a body cannot be kept apart from itself");
+  impl_->apart.add(a.index, b.index);
+}
+
+void World::letCollide(BodyId a, BodyId b) {
+  state(a), state(b);
+  impl_->apart.remove(a.index, b.index);
+}
+
+bool World::areKeptApart(BodyId a, BodyId b) const {
+  return isValid(a) && isValid(b) && impl_->apart.contains(a.index, b.index);
+}
+
+std::vector<Pair> World::pairsKeptApart() const {
+  std::vector<Pair> out;
+  for (uint64_t key : impl_->apart.keys())
+    out.push_back({.body_a = static_cast<uint32_t>(key >> 32), .body_b = static_cast<uint32_t>(key)});
+  return out;
+}
+
+WorldEvents World::events() const {
+  const EventStore& e = impl_->events;
+  return {.touch_begin = e.begin,
+          .touch_end = e.end,
+          .hits = e.hits,
+          .trigger_enter = e.enter,
+          .trigger_leave = e.leave,
+          .fell_asleep = e.fell_asleep,
+          .woke = e.woke,
+          .broken_joints = impl_->broken_joints};
+}
+
+void World::setPairFilter(PairFilter filter) { impl_->pair_filter = std::move(filter); }
+void World::setContactModifier(ContactModifier modifier) { impl_->contact_modifier = std::move(modifier); }
 
 Joint& World::joint(JointId id) {
   if (!isValid(id)) throw std::invalid_argument("world: the joint does not exist");
@@ -251,14 +294,17 @@ IslandView World::island(uint32_t index) const {
 }
 
 WorldCounts World::counts() const {
-  WorldCounts c;
+  WorldCounts& c = impl_->counts;
+  if (std::exchange(impl_->counts_are_current, true)) return c;
+  impl_->refreshActive();
+  c = {};
   c.bodies = impl_->store.count();
-  for (const RigidState& s : impl_->store.states) c.awake += isDynamic(s.motion_type) && !s.asleep;
+  c.awake = static_cast<uint32_t>(impl_->active.size());
   c.pairs = static_cast<uint32_t>(impl_->pairs.size());
   for (const Pair& p : impl_->pairs) {
     const auto found = manifolds(p);
     c.touching_pairs += !found.empty();
-    for (const ContactManifold& m : found) c.contact_points += m.num_points;
+    for (const ContactManifold& m : found) c.contact_points += static_cast<uint32_t>(m.num_points);
   }
   c.islands = numIslands();
   c.joints = impl_->joint_store.count();
@@ -269,7 +315,9 @@ std::span<const StageTime> World::stageTimes() const { return impl_->times; }
 
 std::vector<std::string_view> World::stages() const {
   std::vector<std::string_view> names;
-  for (const StageTime& t : impl_->times) names.push_back(t.name);
+  uint64_t bit = 1;
+  for (const Stage& s : pfx::stages(impl_->def.pipeline))
+    if (impl_->stages_run & std::exchange(bit, bit << 1)) names.push_back(s.name);
   return names;
 }
 

@@ -15,6 +15,7 @@
 #include "pfx/base_level/shape/collidable.h"
 #include "pfx/base_level/simd_level.h"
 #include "pfx/high_level/particles/particle_def.h"
+#include "pfx/high_level/world/events.h"
 #include "pfx/high_level/world/joint_def.h"
 #include "pfx/low_level/ray/ray_cast.h"
 #include "pfx/low_level/solver/contact_solver.h"
@@ -42,6 +43,8 @@ struct WorldDef {
   bool sleeping = false;             // islands at rest are put to sleep
   float sleep_velocity = 0.1f;       // m/s and rad/s
   uint32_t sleep_steps = 180;        // steps below sleep_velocity before an island sleeps
+  bool report_events = false;        // World::events() has something to say
+  float hit_speed = 1.0f;            // m/s, of approach, beyond which the begin of a contact is a hit
   Vec3 center = Vec3::Zero();        // m, of the world box
   Vec3 extent = Vec3::Constant(500.0f);  // m, half extent of the world box
 };
@@ -147,6 +150,23 @@ class World {
   // Joints that broke in the last step; they are removed already.
   std::span<const JointId> brokenJoints() const;
 
+  // Pairs that do not collide, besides those of joints, until told otherwise or one of the bodies is removed. Both wake.
+  // Throw std::invalid_argument when a body does not exist or both are the same.
+  void keepApart(BodyId a, BodyId b);
+  void letCollide(BodyId a, BodyId b);
+  bool areKeptApart(BodyId a, BodyId b) const;
+  std::vector<Pair> pairsKeptApart() const;  // ascending
+
+  // What happened in the last step, and between it and the one before. Empty without WorldDef::report_events, except for
+  // broken joints.
+  WorldEvents events() const;
+
+  // What the application has to say about contacts before they are solved (events.h); an empty function: nothing. Not
+  // part of snapshots and files. A function must answer the same for the same bodies in the same state, or runs differ,
+  // and must not change the world.
+  void setPairFilter(PairFilter filter);
+  void setContactModifier(ContactModifier modifier);
+
   // Adds a system of particles, which is stepped with the world, after its bodies. Throws std::invalid_argument, naming
   // the system and what is wrong with it. When a body is removed, particles anchored to it fly free; those without a
   // mass stay where they are.
@@ -175,9 +195,9 @@ class World {
   uint32_t numIslands() const;
   IslandView island(uint32_t index) const;
 
-  WorldCounts counts() const;
+  WorldCounts counts() const;  // counted once after each step or change
   std::span<const StageTime> stageTimes() const;  // of the last step, in order
-  std::vector<std::string_view> stages() const;   // that this world's content makes it run, in order
+  std::vector<std::string_view> stages() const;   // that this world has run since it was made, in order
   // Everything that the world needs to continue to the bit, meshes included, as portable bytes (snapshot.h). snapshot()
   // returns how many it wrote. restore() goes back to them, or takes over those of another world; the number of
   // workers and the SIMD level stay, ids and the addresses of meshes stay valid. Both throw SnapshotError, snapshot()

@@ -6,7 +6,9 @@
 #include "pfx/base_level/shape/convex_mesh.h"
 #include "pfx/base_level/shape/large_mesh.h"
 #include "pfx/high_level/pipeline/stage.h"
+#include "pfx/high_level/world/apart_pairs.h"
 #include "pfx/high_level/world/body_store.h"
+#include "pfx/high_level/world/event_store.h"
 #include "pfx/high_level/world/joint_store.h"
 #include "pfx/high_level/world/particle_store.h"
 #include "pfx/high_level/world/world.h"
@@ -15,6 +17,7 @@
 #include "pfx/low_level/broadphase/tree_broadphase.h"
 #include "pfx/low_level/collision/contact_store.h"
 #include "pfx/low_level/collision/detect.h"
+#include "pfx/low_level/continuous/time_of_impact.h"
 #include "pfx/low_level/island/islands.h"
 #include "pfx/low_level/solver/joint_components.h"
 #include "pfx/low_level/solver/newton_island.h"
@@ -41,6 +44,18 @@ struct Stop {
   float fraction = 1.0f;      // of the step; 1: it is not
   Vec3 point = Vec3::Zero();  // m, world, of the impact
   uint32_t by = 0;            // the body that it hits
+};
+
+// A pair of which one body moves far in a step, and where the two first touch.
+struct FastPair {
+  uint32_t pair;  // index into pairs
+  Impact impact;
+};
+
+// A manifold that the application changed, which the solver gets in place of the original.
+struct ModifiedContact {
+  ContactManifold manifold;
+  ContactManifold* original;
 };
 
 struct World::Impl {
@@ -74,6 +89,7 @@ struct World::Impl {
   std::vector<Transform> start_poses;
   std::vector<uint8_t> is_fast;
   std::vector<Stop> stops;
+  std::vector<FastPair> fast_pairs;
   std::vector<BodyPose> stopped_poses;
   bool tree_is_current = false;  // the tree holds the bodies where they are now
 
@@ -117,14 +133,25 @@ struct World::Impl {
   std::deque<NewtonTask> newton_islands;
   uint32_t num_newton_islands = 0;  // in use
 
+  // What the application says about contacts, and what it is told
+  ApartPairs apart;
+  PairFilter pair_filter;
+  ContactModifier contact_modifier;
+  std::vector<ModifiedContact> modified;
+  EventStore events;
+
   ParticleStore particle_store;
 
   std::vector<StageTime> times;
+  uint64_t stages_run = 0;  // a bit for each of the pipeline, since the world was made
+  WorldCounts counts;
+  bool counts_are_current = false;
 
   bool solves(const Pair& pair) const;
   ContactStrain strainOf(const ContactConstraint& constraint) const;  // solver_a, solver_b are indices of states
   void refreshActive();
   void linkIslands();
+  void hasChanged(uint32_t body);      // from outside: it stands elsewhere, is new, or is gone
   QueryScene queryScene();             // for queries about the bodies as they are now
   void needSolverBody(uint32_t body);  // the solver will work on it
   void listIslandPairs();

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "pfx/low_level/broadphase/shape_tree.h"
+#include "pfx/low_level/collision/merge_manifolds.h"
 
 namespace pfx {
 namespace {
@@ -59,11 +60,12 @@ void collideParts(const BodyPair& p, MeshContactScratch& mesh_scratch, FoundMani
   const Collidable &few = a_is_larger ? p.b : p.a, &many = a_is_larger ? p.a : p.b;
   const Transform few_in_many = a_is_larger ? relative(p.pose_a, p.pose_b) : relative(p.pose_b, p.pose_a);
   const Transform many_in_few = a_is_larger ? relative(p.pose_b, p.pose_a) : relative(p.pose_a, p.pose_b);
-  visitShapes(few, transformedAabb(many_in_few, many.center, many.half_extent).grown(p.margin), [&](uint32_t f) {
-    const Shape& shape = few.shapes()[f];
-    const Aabb box = shapeAabb(shape.geometry, few_in_many * shape.offset).grown(p.margin);
-    visitShapes(many, box, [&](uint32_t m) { a_is_larger ? collide(m, f) : collide(f, m); });
-  });
+  visitShapes(few, transformedAabb(many_in_few, many.center, many.half_extent).grown(p.margin),
+              [&](uint32_t f) {
+                const Shape& shape = few.shapes()[f];
+                const Aabb box = shapeAabb(shape.geometry, few_in_many * shape.offset).grown(p.margin);
+                visitShapes(many, box, [&](uint32_t m) { a_is_larger ? collide(m, f) : collide(f, m); });
+              });
 }
 
 }  // namespace
@@ -73,11 +75,14 @@ bool hasMesh(const Collidable& c) { return std::ranges::any_of(c.shapes(), isMes
 void collideBodies(const BodyPair& p, PairCache& cache, MeshContactScratch& mesh_scratch,
                    FoundManifolds& out) {
   const auto shapes_a = p.a.shapes(), shapes_b = p.b.shapes();
-  if (shapes_a.size() == 1 && shapes_b.size() == 1)
+  const bool single = shapes_a.size() == 1 && shapes_b.size() == 1;
+  if (single)
     collideOne({shapes_a[0], p.pose_a, shapes_b[0], p.pose_b, p.margin, &cache}, mesh_scratch, out);
   else
     collideParts(p, mesh_scratch, out);
   for (ContactManifold& m : out.manifolds) m.local_normal = p.pose_a.orientation.conjugate() * m.normal;
+  if (!single && out.manifolds.size() > 1)
+    mergeManifolds(relative(p.pose_a, p.pose_b), mesh_scratch.parts, out.manifolds);
 }
 
 }  // namespace pfx

@@ -33,6 +33,8 @@ class ContactStore {
   void remove(uint32_t id);
   void clear();
 
+  size_t size() const { return contacts_.size(); }  // ids are below it
+
   Contact& operator[](uint32_t id) { return contacts_[id]; }
   const Contact& operator[](uint32_t id) const { return contacts_[id]; }
   std::span<ContactManifold> manifolds(uint32_t id) {

@@ -18,6 +18,14 @@ constexpr float kKept = 0.5f, kKeptRolling = 5e-5f;
 
 float radiusOf(const Collidable& c) { return (c.center.cwiseAbs() + c.half_extent).norm(); }
 
+bool idsExist(const DetectInput& input, const ContactStore& contacts) {
+  const size_t bodies = input.states.size();
+  if (input.collidables.size() != bodies || input.reach.size() != bodies) return false;
+  return std::ranges::all_of(input.pairs, [&](const Pair& p) {
+    return p.body_a < bodies && p.body_b < bodies && p.contact_id < contacts.size();
+  });
+}
+
 void inheritImpulses(ContactPoint& point, std::span<const ContactManifold> old) {
   for (const ContactManifold& m : old) {
     for (int i = 0; i < m.num_points; ++i) {
@@ -91,7 +99,8 @@ void CollisionDetector::prepareScratch(uint32_t num_workers) {
   }
 }
 
-void CollisionDetector::detect(const DetectInput& input, ContactStore& contacts, TaskManager& tasks) {
+Error CollisionDetector::detect(const DetectInput& input, ContactStore& contacts, TaskManager& tasks) {
+  if (!idsExist(input, contacts)) return Error::OutOfRange;
   prepareScratch(static_cast<uint32_t>(tasks.numWorkers()));
   tasks.parallelFor(static_cast<uint32_t>(input.pairs.size()), kPairGrain, [&](TaskRange r) {
     for (uint32_t i = r.begin; i < r.end; ++i) detectPair(input, i, contacts, scratch_[r.worker]);
@@ -102,6 +111,7 @@ void CollisionDetector::detect(const DetectInput& input, ContactStore& contacts,
   mesh_pairs_.clear();
   for (const Scratch& s : scratch_) mesh_pairs_.insert(mesh_pairs_.end(), s.mesh_pairs.begin(), s.mesh_pairs.end());
   dropGhostContacts({input.states, input.collidables, input.pairs}, mesh_pairs_, contacts);
+  return Error::Ok;
 }
 
 // In the order of the pairs, so that blocks do not depend on who found what.

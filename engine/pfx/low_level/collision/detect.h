@@ -33,8 +33,9 @@ struct DetectInput {
 
 class CollisionDetector {
  public:
-  // Updates the contacts of all pairs. The result does not depend on the number of workers.
-  void detect(const DetectInput& input, ContactStore& contacts, TaskManager& tasks);
+  // Updates the contacts of all pairs. The result does not depend on the number of workers. Error::OutOfRange for spans of
+  // different length, and for a pair with a body or contact that does not exist; nothing is done then.
+  Error detect(const DetectInput& input, ContactStore& contacts, TaskManager& tasks);
 
   uint32_t numRecycled() const { return num_recycled_; }  // pairs of the last call that kept their manifolds
 

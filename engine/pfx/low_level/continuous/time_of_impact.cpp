@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "pfx/base_level/collision/gjk.h"
+#include "pfx/base_level/math/finite.h"
 #include "pfx/base_level/rigid_body/rotation_update.h"
+#include "pfx/base_level/shape/collidable.h"
 #include "pfx/base_level/shape/convex_mesh.h"
 #include "pfx/base_level/shape/mesh_query.h"
 
@@ -214,6 +216,8 @@ class MeshImpact {
   Impact best_;
 };
 
+bool isFinite(const Sweep& s) { return pfx::isFinite(s.start) && pfx::isFinite(s.motion) && pfx::isFinite(s.rotation); }
+
 // A is the mesh.
 Impact meshImpact(const ImpactInput& in) {
   return MeshImpact(in, *std::get<const LargeMesh*>(in.shape_a.geometry)).find();
@@ -230,6 +234,8 @@ Transform Sweep::at(float fraction) const {
 Impact timeOfImpact(const ImpactInput& in) {
   const bool mesh_a = in.shape_a.type() == ShapeType::LargeMesh, mesh_b = in.shape_b.type() == ShapeType::LargeMesh;
   if (mesh_a && mesh_b) return {};
+  if (isMissing(in.shape_a.geometry) || isMissing(in.shape_b.geometry)) return {};
+  if (!isFinite(in.sweep_a) || !isFinite(in.sweep_b)) return {};
   if (mesh_a) return meshImpact(in);
   if (mesh_b) {
     Impact impact = meshImpact({in.shape_b, in.sweep_b, in.shape_a, in.sweep_a, in.tolerance, in.max_fraction});

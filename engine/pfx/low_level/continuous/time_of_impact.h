@@ -45,7 +45,7 @@ struct Impact {
   bool touches() const { return state != State::Apart; }
 };
 
-// First touch of two shapes. A facet of a large mesh stops only what comes from its front: a shape whose centre starts
+// First touch of two shapes; none for missing meshes and for sweeps that are not finite. A facet of a large mesh stops only what comes from its front: a shape whose centre starts
 // behind it by more than the facet's thickness passes. A hit that the shapes already move away from does not count.
 Impact timeOfImpact(const ImpactInput& input);
 

@@ -5,6 +5,7 @@
 
 #include "pfx/base_level/collision/mesh_contact.h"
 #include "pfx/base_level/collision/pair_table.h"
+#include "pfx/base_level/math/finite.h"
 #include "pfx/base_level/shape/large_mesh.h"
 #include "pfx/low_level/broadphase/proxy.h"
 #include "pfx/low_level/broadphase/shape_tree.h"
@@ -14,14 +15,6 @@ namespace pfx {
 namespace {
 
 constexpr uint32_t kRayGrain = 16;
-
-bool missing(const Shape& shape) {
-  const auto null = [](const auto& g) {
-    if constexpr (std::is_pointer_v<std::remove_cvref_t<decltype(g)>>) return g == nullptr;
-    return false;
-  };
-  return std::visit(null, shape.geometry);
-}
 
 // Calls fraction = visit(body, fraction) for bodies that a box of this half extent may meet on its way.
 template <class Visit>
@@ -46,12 +39,18 @@ float upTo(double fraction) {
   return std::max(std::min(1.0f, static_cast<float>(fraction) * (1.0f + 0x1p-20f)), 1e-30f);
 }
 
+// Bodies without a collidable, or with a pose that is not finite, are not there.
+bool isThere(const QueryScene& scene, uint32_t body) {
+  return body < scene.states.size() && body < scene.collidables.size() && isFinite(scene.states[body].pose());
+}
+
 void castAtBody(const RayInput& ray, const QueryScene& scene, uint32_t body, Nearest& nearest) {
+  if (!isThere(scene, body)) return;
   const RigidState& state = scene.states[body];
   if (!filtersMatch(ray.filter_self, ray.filter_target, state.filter_self, state.filter_target)) return;
   const auto shapes = scene.collidables[body].shapes();
   const auto tryShape = [&](uint32_t i) {
-    if (missing(shapes[i])) return;
+    if (isMissing(shapes[i].geometry)) return;
     LocalRay local = toLocal(ray, state.pose() * shapes[i].offset);
     local.max_fraction = nearest.fraction;
     const ShapeHit hit = castRay(local, shapes[i].geometry);
@@ -119,17 +118,19 @@ Error castRays(std::span<const RayInput> rays, const QueryScene& scene, std::spa
 ShapeCastOutput castShape(const ShapeCastInput& input, const QueryScene& scene) {
   ShapeCastOutput out;
   if (std::holds_alternative<const LargeMesh*>(input.geometry) || !input.motion.allFinite()) return out;
+  if (isMissing(input.geometry) || !isFinite(input.start)) return out;
   const Shape shape{input.geometry, {}};
   const Sweep sweep{input.start, input.motion, Vec3::Zero()};
   const Aabb box = shapeAabb(input.geometry, input.start).grown(input.tolerance);
   const auto tryBody = [&](uint32_t body) {
+    if (!isThere(scene, body)) return;
     const RigidState& state = scene.states[body];
     if (body == input.ignore_body || !(input.motion_types & motionTypeBit(state.motion_type))) return;
     if (!filtersMatch(input.filter_self, input.filter_target, state.filter_self, state.filter_target)) return;
     const Sweep still{state.pose(), Vec3::Zero(), Vec3::Zero()};
     const auto shapes = scene.collidables[body].shapes();
     const auto tryShape = [&](uint32_t i) {
-      if (missing(shapes[i])) return;
+      if (isMissing(shapes[i].geometry)) return;
       const Impact impact = timeOfImpact({shapes[i], still, shape, sweep, input.tolerance, out.fraction});
       if (!impact.touches()) return;
       const bool tie = out.hit && impact.fraction == out.fraction;
@@ -151,6 +152,7 @@ ShapeCastOutput castShape(const ShapeCastInput& input, const QueryScene& scene) 
 }
 
 void findOverlaps(const OverlapInput& input, const QueryScene& scene, std::vector<uint32_t>& bodies) {
+  if (isMissing(input.geometry) || !isFinite(input.pose)) return;
   const Shape shape{input.geometry, {}};
   const Aabb box = shapeAabb(input.geometry, input.pose).grown(input.margin);
   const size_t first = bodies.size();
@@ -166,6 +168,7 @@ void findOverlaps(const OverlapInput& input, const QueryScene& scene, std::vecto
     return collideShapes(pair, m) > 0;
   };
   const auto tryBody = [&](uint32_t body) {
+    if (!isThere(scene, body)) return;
     const RigidState& state = scene.states[body];
     if (!filtersMatch(input.filter_self, input.filter_target, state.filter_self, state.filter_target)) return;
     const Collidable& collidable = scene.collidables[body];
@@ -173,7 +176,7 @@ void findOverlaps(const OverlapInput& input, const QueryScene& scene, std::vecto
     bool found = false;
     visitShapes(collidable, shapeAabb(input.geometry, in_body).grown(input.margin), [&](uint32_t i) {
       const Shape& other = collidable.shapes()[i];
-      found = found || (!missing(other) && overlaps(other, state.pose()));
+      found = found || (!isMissing(other.geometry) && overlaps(other, state.pose()));
     });
     if (found) bodies.push_back(body);
   };
@@ -181,7 +184,7 @@ void findOverlaps(const OverlapInput& input, const QueryScene& scene, std::vecto
     scene.tree->overlap(box, tryBody);
   } else {
     for (uint32_t body = 0; body < scene.states.size(); ++body) {
-      if (bodyAabb(scene.states[body], scene.collidables[body]).overlaps(box)) tryBody(body);
+      if (isThere(scene, body) && bodyAabb(scene.states[body], scene.collidables[body]).overlaps(box)) tryBody(body);
     }
   }
   std::sort(bodies.begin() + static_cast<std::ptrdiff_t>(first), bodies.end());

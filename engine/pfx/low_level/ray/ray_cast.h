@@ -16,7 +16,7 @@ namespace pfx {
 
 struct QueryScene {
   std::span<const RigidState> states;       // by body
-  std::span<const Collidable> collidables;  // by body; one that has no finished shape is not hit
+  std::span<const Collidable> collidables;  // by body; one that has no finished shape is not hit, nor one with a pose that is not finite
   // Finds candidates; without it every body is looked at. The bounds in it must hold the bodies where they are now.
   const TreeBroadphase* tree = nullptr;
 };

@@ -109,6 +109,10 @@ class DebugRender {
   // One point and one line along the outward normal, for each contact point and visible body of the pair.
   void renderContact(std::span<const RigidState> states, const Pair& pair,
                      std::span<const ContactManifold> manifolds);
+  // A line per contact point between the surfaces of A and B along the normal, `exaggeration` times as long as the gap
+  // or overlap is, as millimetres would not be seen: one colour for gaps, another for overlaps.
+  void renderContactDepth(std::span<const RigidState> states, const Pair& pair,
+                          std::span<const ContactManifold> manifolds, float exaggeration);
 
   // Two points and six lines: anchors and frames of the joint in both bodies; a line for the range of each limited
   // translation, an arc for that of each limited rotation.

@@ -12,6 +12,7 @@ inline constexpr Color kAxisColors[3] = {0xffd64545u, 0xff4fa352u, 0xff3f72c4u};
 inline constexpr Color kWorldColor = 0xff8e959eu;
 inline constexpr Color kContactPointColor = 0xfff2b33du;
 inline constexpr Color kContactNormalColor = 0xffe3663au;
+inline constexpr Color kContactOverlapColor = 0xffc0203cu, kContactGapColor = 0xff3f8fd0u;
 
 // Edges of a large mesh: flat, convex, concave, open.
 inline constexpr Color kEdgeColors[4] = {0xff9aa3ad, 0xffd98a3f, 0xff3f86b8, 0xffc8475a};

@@ -135,6 +135,22 @@ TEST(DebugRender, drawsAPointAndAnOutwardNormalOnEachVisibleSideOfAContact) {
   EXPECT_EQ(record.points.size(), 6u);
 }
 
+TEST(DebugRender, drawsTheDepthOfAContactEnlarged) {
+  Record record;
+  DebugRender debug(record.callbacks());
+  const std::vector<RigidState> states(2);
+  ContactManifold manifold;
+  manifold.num_points = 2;
+  manifold.points[0].distance = -0.001f;
+  manifold.points[1].distance = 0.002f;
+  debug.renderContactDepth(states, Pair{0, 1, 0, 0}, std::span(&manifold, 1), 100.0f);
+  ASSERT_EQ(record.lines.size(), 2u);
+  EXPECT_NEAR((record.lines[0].second - record.lines[0].first).y(), -0.1f, 1e-6f);
+  EXPECT_NEAR((record.lines[1].second - record.lines[1].first).y(), 0.2f, 1e-6f);
+  debug.renderContactDepth(states, Pair{0, 5, 0, 0}, std::span(&manifold, 1), 100.0f);  // there is no body 5
+  EXPECT_EQ(record.lines.size(), 2u);
+}
+
 TEST(DebugRender, drawsEachGeometryInOneBatchAndDefinesItOnce) {
   Record record;
   DebugRender debug(record.callbacks());

@@ -1,0 +1,52 @@
+#include "pfx/low_level/collision/merge_manifolds.h"
+
+#include <algorithm>
+
+#include "pfx/base_level/collision/contact_reduction.h"
+
+namespace pfx {
+namespace {
+
+constexpr float kSameNormal = 0.99999f;
+
+// Points of all manifolds from `first` on with its normal; a candidate is named by manifold and point.
+void gather(const RelativePose& b_in_a, std::span<const ContactManifold> manifolds, size_t first,
+            std::vector<LocalContact>& candidates) {
+  candidates.clear();
+  for (size_t k = first; k < manifolds.size(); ++k) {
+    const ContactManifold& m = manifolds[k];
+    if (m.local_normal.dot(manifolds[first].local_normal) < kSameNormal) continue;
+    for (int i = 0; i < m.num_points; ++i) {
+      const uint32_t name = static_cast<uint32_t>(k) << 2 | static_cast<uint32_t>(i);
+      candidates.push_back(
+          {m.points[i].local_a, b_in_a.toA(m.points[i].local_b), m.points[i].distance, name});
+    }
+  }
+}
+
+}  // namespace
+
+void mergeManifolds(const Transform& b_in_a, std::vector<LocalContact>& candidates,
+                    std::vector<ContactManifold>& manifolds) {
+  const RelativePose to_a(b_in_a);
+  for (size_t first = 0; first < manifolds.size(); ++first) {
+    gather(to_a, manifolds, first, candidates);
+    if (candidates.size() == static_cast<size_t>(manifolds[first].num_points)) continue;
+    LocalManifold best;
+    best.normal = manifolds[first].local_normal;
+    reduceContacts(candidates, best);
+    ContactManifold merged = manifolds[first];
+    merged.num_points = best.num_points;
+    for (int i = 0; i < best.num_points; ++i)
+      merged.points[i] = manifolds[best.points[i].feature >> 2].points[best.points[i].feature & 3];
+    const auto isJoined = [&](const ContactManifold& m) {
+      return m.local_normal.dot(best.normal) >= kSameNormal;
+    };
+    manifolds.erase(
+        std::remove_if(manifolds.begin() + static_cast<long>(first) + 1, manifolds.end(), isJoined),
+        manifolds.end());
+    manifolds[first] = merged;
+  }
+}
+
+}  // namespace pfx
