@@ -152,7 +152,7 @@ TEST(AccFriction, aPuckStopsSlidingAndSpinningTogether) {
   World world(worldDef(4));
   addGround(world, {0.3f});
   const BodyId puck = world.addBody({.pose = {.position = Vec3(0, 0.005f, 0)},
-                                     .shapes = {{Cylinder{0.1f, 0.005f}, {.orientation = aboutZ(M_PI / 2)}}},
+                                     .shapes = {{Cylinder{0.005f, 0.1f}, {.orientation = aboutZ(M_PI / 2)}}},
                                      .restitution = 0.0f,
                                      .friction = 0.3f});
   world.state(puck).linear_velocity = Vec3(2, 0, 0);

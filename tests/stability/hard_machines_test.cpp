@@ -49,7 +49,7 @@ TEST(HardMachines, ARotorIsNotLaunched) {
   const BodyId rotor = world.addBody(
       {.pose = {.position = Vec3(0, kRadius + 0.01f, 0), .orientation = aboutZ(0)},
        .angular_velocity = Vec3(0, 0, -1000),
-       .shapes = {{Cylinder{kRadius, 0.05f},
+       .shapes = {{Cylinder{0.05f, kRadius},
                    {.orientation = Quat(Eigen::AngleAxisf(static_cast<float>(M_PI / 2), Vec3::UnitY()))}}},
        .restitution = 0.0f,
        .friction = 0.6f});

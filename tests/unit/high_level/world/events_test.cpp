@@ -8,7 +8,7 @@
 
 #include "pfx/high_level/world/world.h"
 #include "pfx/util/mesh_builder/mesh_builder.h"
-#include "tests/support/allocation_count.h"
+#include "tests/support/counted_allocations.h"
 
 namespace {
 
