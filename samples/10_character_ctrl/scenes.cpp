@@ -282,7 +282,7 @@ struct Crowd final : Scene {
       const Vec3 feet = feetOf(troupe_[k], world), goal = place(i, back ? 0.0f : kPi);
       // All keep a little to the right, or nobody would get past the middle.
       const Vec3 ahead = directionTo(feet, goal);
-      const float aside = std::min(0.1f * (goal - feet).norm(), 0.7f);
+      const float aside = std::min(0.05f * (goal - feet).norm(), 0.35f);
       troupe_.input(k) = {.direction = ahead + aside * Vec3(-ahead.z(), 0.0f, ahead.x()),
                           .run = i % 4 == 0,
                           .crouch = i % 8 == 3};
@@ -347,7 +347,7 @@ std::vector<SceneEntry> characterScenes() {
       {.sample = sample,
        .name = "crowd",
        .shows = "sixteen characters cross at one place and shove boxes and each other; nobody overlaps",
-       .camera = {.target = Vec3(0.0f, 0.6f, 0.0f), .distance = 14.5f, .yaw_deg = 20.0f, .pitch_deg = 32.0f},
+       .camera = {.target = Vec3(0.0f, 0.6f, 0.0f), .distance = 17.0f, .yaw_deg = 20.0f, .pitch_deg = 30.0f},
        .frames = {60, 240, 600},
        .world = {},
        .make = make<Crowd>}};

@@ -143,7 +143,7 @@ std::vector<SceneEntry> stackScenes() {
       {.sample = sample,
        .name = "tower",
        .shows = "fifty boxes on top of each other, without sleep",
-       .camera = {.target = {0, 24.5f, 0}, .distance = 68.0f, .yaw_deg = 30.0f, .pitch_deg = 6.0f},
+       .camera = {.target = {0, 24.5f, 0}, .distance = 84.0f, .yaw_deg = 30.0f, .pitch_deg = 6.0f},
        .frames = {0, 60, 300},
        .world = {},
        .make = [] { return std::unique_ptr<Scene>(std::make_unique<Tower>(0.0f)); }},

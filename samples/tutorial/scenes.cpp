@@ -292,13 +292,13 @@ std::vector<SceneEntry> tutorialScenes() {
   const WorldDef sleeping{.sleeping = true};
   const WorldDef town{.sleeping = true, .extent = Vec3(250.0f, 100.0f, 250.0f)};
   const CameraPose over_town{
-      .target = Vec3(0.0f, 1.5f, -2.0f), .distance = 44.0f, .yaw_deg = 24.0f, .pitch_deg = 34.0f};
+      .target = Vec3(0.0f, 3.6f, -4.0f), .distance = 50.0f, .yaw_deg = 22.0f, .pitch_deg = 30.0f};
   return {
       {.sample = sample,
        .name = "primitives",
        .shows = "bodies are added and removed while the world runs: places are used again, old handles die",
-       .camera = {.target = Vec3(0.0f, 2.4f, 0.0f), .distance = 20.0f, .yaw_deg = 30.0f, .pitch_deg = 24.0f},
-       .frames = {20, 150, 600},
+       .camera = {.target = Vec3(0.0f, 3.4f, 0.0f), .distance = 23.0f, .yaw_deg = 30.0f, .pitch_deg = 22.0f},
+       .frames = {40, 150, 600},
        .world = sleeping,
        .make = make<Primitives>},
       {.sample = sample,
@@ -326,8 +326,8 @@ std::vector<SceneEntry> tutorialScenes() {
        .name = "town_rays",
        .shows = "fifty rays turn above the fountain, within a box of 8.1 m: blue hits are the town, red ones "
                 "bodies",
-       .camera = {.target = Vec3(0.0f, 2.5f, 0.0f), .distance = 27.0f, .yaw_deg = 30.0f, .pitch_deg = 30.0f},
-       .frames = {60, 150, 420},
+       .camera = {.target = Vec3(0.0f, 2.4f, -0.5f), .distance = 25.0f, .yaw_deg = 12.0f, .pitch_deg = 30.0f},
+       .frames = {90, 150, 420},
        .world = town,
        .make = make<TownRays>}};
 }

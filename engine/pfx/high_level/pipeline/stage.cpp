@@ -15,9 +15,10 @@ bool hasPairs(const World::Impl& w) { return !w.pairs.empty(); }
 bool hasConstraints(const World::Impl& w) { return !w.constraints.empty() || !w.joint_step.empty(); }
 bool hasContacts(const World::Impl& w) { return !w.constraints.empty(); }
 bool hasJoints(const World::Impl& w) { return w.joint_store.count() > 0; }
+// A world that remembers nothing keeps to the plain solver, unless it is told otherwise.
 bool mayNeedNewton(const World::Impl& w) {
-  return hasContacts(w) && w.def.contact_solver != ContactSolver::Soft &&
-         (w.any_strained || w.def.contact_solver == ContactSolver::Newton);
+  if (!hasContacts(w) || w.def.contact_solver == ContactSolver::Soft) return false;
+  return w.def.contact_solver == ContactSolver::Newton || (w.any_strained && w.def.pipeline != Pipeline::Simple);
 }
 bool hasNewtonIslands(const World::Impl& w) { return w.num_newton_islands > 0; }
 bool hasFreeComponents(const World::Impl& w) { return !w.free_components.empty(); }
