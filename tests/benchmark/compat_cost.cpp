@@ -91,7 +91,6 @@ struct NativeWorld {
     }
     for (int i = 0; i < kBoxes; ++i) {
       Manifold& m = manifolds[i];
-      m = {};
       m.count = w.contacts[i].getNumContacts();
       for (int k = 0; k < m.count; ++k) {
         const PfxContactPoint& p = w.contacts[i].getContactPoint(k);

@@ -236,7 +236,9 @@ TEST(Tutorial, EverySceneRunsSixHundredSteps) {
     for (const RigidState& s : scene.world.states()) ASSERT_TRUE(s.position.allFinite()) << entry->name;
     for (const Reading& r : scene.scene->readings(scene.world)) {
       RecordProperty(std::string(entry->name) + ": " + std::string(r.name), std::to_string(r.value));
-      if (r.limit > 0.0) EXPECT_LE(r.value, r.limit) << entry->name << ": " << r.name;
+      if (r.limit > 0.0) {
+        EXPECT_LE(r.value, r.limit) << entry->name << ": " << r.name;
+      }
     }
   }
 }
