@@ -51,7 +51,7 @@ class Bridge final : public ParticleScene {
  private:
   static void addRoller(World& world, const char* name, const Geometry& geometry, const Vec3& at, float mass,
                         float speed) {
-    const Quat turn = std::holds_alternative<Cylinder>(geometry) ? rotation(Vec3::UnitY(), 0.5f * kPi) : Quat::Identity();
+    const Quat turn = std::holds_alternative<Cylinder>(geometry) ? rotation(Vec3::UnitY(), 0.5f * kPi) : Quat(Quat::Identity());
     world.addBody({.name = name,
                    .pose = {.position = at, .orientation = turn},
                    .linear_velocity = Vec3(speed, 0, 0),

@@ -16,7 +16,7 @@ namespace {
 Quat turnFromX(const Vec3& direction) {
   const Vec3 axis = Vec3::UnitX().cross(direction);
   const Quat twice(1.0f + direction.x(), axis.x(), axis.y(), axis.z());
-  return direction.x() > -0.9999f ? twice.normalized() : Quat(0.0f, 0.0f, 1.0f, 0.0f);
+  return direction.x() > -0.9999f ? Quat(twice.normalized()) : Quat(0.0f, 0.0f, 1.0f, 0.0f);
 }
 
 float strainOf(const ParticleSystem& p, const ParticleStrand& s, size_t link) {
