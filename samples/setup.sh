@@ -16,7 +16,7 @@ build_packages_optional=(libosmesa6 libosmesa6-dev liburdfdom-dev)
 
 # To run every test as well. The optional ones: a browser that reads the golden report, and engines to compare with.
 test_packages=(libgtest-dev libbenchmark-dev xvfb xauth xdotool imagemagick)
-test_packages_optional=(chromium libbullet-dev libode-dev valgrind)
+test_packages_optional=(chromium libbullet-dev libode-dev valgrind doxygen)
 
 say() { printf '\033[1m== %s\033[0m\n' "$*"; }
 fail() { printf '%s\n' "$1" >&2; exit "${2:-1}"; }

@@ -131,7 +131,7 @@ uint32_t addCardHouse(World& world, const CardHouse& house) {
   constexpr float kHalf = 0.2f, kDeep = 0.1f;  // m, half extents of a card
   const float x = house.x, thin = house.half_thickness;
   const float lean = 25.0f * kPi / 180.0f, s = pfx::sin(lean), c = pfx::cos(lean);
-  const float pitch = 2.0f * kHalf + 0.002f, rise = 2.0f * (kHalf * c + thin * s);
+  const float pitch = 2.0f * kHalf + 0.0002f, rise = 2.0f * (kHalf * c + thin * s);
   const auto addCard = [&](const Vec3& at, float angle) {
     const BodyId card = world.addBody({.name = "card",
                                        .pose = {at, rotation(Vec3::UnitZ(), angle)},
@@ -185,9 +185,9 @@ std::vector<SceneEntry> structureScenes() {
        .make = make<CardHouses>},
       {.sample = sample,
        .name = "arches",
-       .shows = "the left arch is thick enough to stand, the right one a little too thin",
+       .shows = "statics lets the left arch stand by 8 % of its thickness, the right one lacks 6 %",
        .camera = {.target = {0, 2.6f, 0}, .distance = 24.0f, .yaw_deg = 12.0f, .pitch_deg = 8.0f},
-       .frames = {0, 120, 420},
+       .frames = {0, 60, 120},
        .world = {},
        .make = make<Arches>},
   };

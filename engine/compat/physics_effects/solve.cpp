@@ -18,9 +18,10 @@ struct Selection {
 
 template <class Item, class Fn>
 void forEachPair(const PfxSolveConstraintsParam& p, const PairList<Item>& list, std::span<const PfxUInt32> chosen, Fn&& fn) {
+  pfx::ImpulseBody fixed = {};
   for (const PfxUInt32 i : chosen) {
     const PfxConstraintPair& pair = list.pairs[i];
-    const SolverPair bodies(p.offsetSolverBodies[pfxGetRigidBodyIdA(pair)], p.offsetSolverBodies[pfxGetRigidBodyIdB(pair)]);
+    const SolverPair bodies(p.offsetSolverBodies[pfxGetRigidBodyIdA(pair)], p.offsetSolverBodies[pfxGetRigidBodyIdB(pair)], fixed);
     fn(bodies, list.items[pfxGetContactId(pair)]);
   }
 }

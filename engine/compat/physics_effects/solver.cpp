@@ -69,6 +69,7 @@ PfxInt32 pfxSetupContactConstraints(PfxSetupContactConstraintsParam& p, PfxTaskM
   if (!(p.timeStep > 0.0f) || !(p.separateBias >= 0.0f)) return SCE_PFX_ERR_INVALID_VALUE;
   if (p.numContactPairs > 0 && p.offsetRigidBodies == nullptr) return SCE_PFX_ERR_INVALID_VALUE;
   pfx::parallelFor(poolOf(taskManager), p.numContactPairs, kBodyGrain, [&](pfx::TaskRange range) {
+    pfx::ImpulseBody fixed = {};
     for (uint32_t i = range.begin; i < range.end; ++i) {
       const PfxConstraintPair& pair = p.contactPairs[i];
       if (!takesPart(pair, p.offsetRigidStates)) continue;
@@ -77,7 +78,7 @@ PfxInt32 pfxSetupContactConstraints(PfxSetupContactConstraintsParam& p, PfxTaskM
       PfxContactManifold& manifold = p.offsetContactManifolds[pfxGetContactId(pair)];
       manifold.setCompositeFriction(std::sqrt(body_a.getFriction() * body_b.getFriction()));
       const Surface surface{0.5f * (body_a.getRestitution() + body_b.getRestitution()), p.separateBias, p.timeStep};
-      const SolverPair bodies(p.offsetSolverBodies[a], p.offsetSolverBodies[b]);
+      const SolverPair bodies(p.offsetSolverBodies[a], p.offsetSolverBodies[b], fixed);
       for (int k = 0; k < manifold.getNumContacts(); ++k)
         setupPoint(manifold.getContactPoint(k), p.offsetRigidStates[a], p.offsetRigidStates[b], surface, bodies);
     }
@@ -89,12 +90,13 @@ PfxInt32 pfxSetupJointConstraints(PfxSetupJointConstraintsParam& p, PfxTaskManag
   if (const PfxInt32 e = check(p, jointsOf(p)); e != SCE_PFX_OK) return e;
   if (!(p.timeStep > 0.0f)) return SCE_PFX_ERR_INVALID_VALUE;
   pfx::parallelFor(poolOf(taskManager), p.numJointPairs, kBodyGrain, [&](pfx::TaskRange range) {
+    pfx::ImpulseBody fixed = {};
     for (uint32_t i = range.begin; i < range.end; ++i) {
       const PfxConstraintPair& pair = p.jointPairs[i];
       if (!takesPart(pair, p.offsetRigidStates)) continue;
       const PfxUInt16 a = pfxGetRigidBodyIdA(pair), b = pfxGetRigidBodyIdB(pair);
       setupJoint(p.offsetJoints[pfxGetConstraintId(pair)], p.offsetRigidStates[a], p.offsetRigidStates[b], p.timeStep,
-                 SolverPair(p.offsetSolverBodies[a], p.offsetSolverBodies[b]));
+                 SolverPair(p.offsetSolverBodies[a], p.offsetSolverBodies[b], fixed));
     }
   });
   return SCE_PFX_OK;

@@ -15,20 +15,21 @@ inline pfx::ImpulsePoint& impulses(PfxContactPoint& p) { return reinterpret_cast
 inline pfx::ImpulseJointRow& impulses(PfxJointRow& row) { return reinterpret_cast<pfx::ImpulseJointRow&>(row); }
 inline pfx::ImpulseBody& impulses(PfxSolverBody& b) { return reinterpret_cast<pfx::ImpulseBody&>(b); }
 
-// The two bodies of a pair as the rows see them. What does not give way - a body without mass, or the partner of a
-// OneWay body, which does not push - is replaced by a copy, so that nothing is ever written to it.
+// The two bodies of a pair as the rows see them. What does not give way is replaced, so that nothing is ever written to it:
+// a body without mass by `fixed`, which is all zeros and stays so, and the partner of a OneWay body, which does not push, by
+// a copy.
 class SolverPair {
  public:
-  SolverPair(PfxSolverBody& a, PfxSolverBody& b)
-      : pair_{gives(a, b) ? impulses(a) : still(a), gives(b, a) ? impulses(b) : still(b)} {}
+  SolverPair(PfxSolverBody& a, PfxSolverBody& b, pfx::ImpulseBody& fixed) : pair_{seen(a, b, fixed), seen(b, a, fixed)} {}
   SolverPair(const SolverPair&) = delete;
   operator pfx::ImpulsePair() const { return pair_; }
 
  private:
-  static bool gives(const PfxSolverBody& body, const PfxSolverBody& partner) {
-    return body.m_massInv > 0.0f && partner.m_motionType != kPfxMotionTypeOneWay;
+  pfx::ImpulseBody& seen(PfxSolverBody& body, const PfxSolverBody& partner, pfx::ImpulseBody& fixed) {
+    if (!(body.m_massInv > 0.0f)) return fixed;
+    return partner.m_motionType != kPfxMotionTypeOneWay ? impulses(body) : still(body);
   }
-  // Both are still when two OneWay bodies or two without mass meet: nothing acts then, and one copy serves for both.
+  // Two OneWay bodies form no pair, so that one copy will do.
   pfx::ImpulseBody& still(const PfxSolverBody& body) {
     copy_ = {};
     std::copy_n(body.m_deltaLinearVelocity, 3, copy_.dv);

@@ -15,9 +15,10 @@ bool hasPairs(const World::Impl& w) { return !w.pairs.empty(); }
 bool hasConstraints(const World::Impl& w) { return !w.constraints.empty() || !w.joint_step.empty(); }
 bool hasContacts(const World::Impl& w) { return !w.constraints.empty(); }
 bool hasJoints(const World::Impl& w) { return w.joint_store.count() > 0; }
+// A world that remembers nothing keeps to the plain solver, unless it is told otherwise.
 bool mayNeedNewton(const World::Impl& w) {
-  return hasContacts(w) && w.def.contact_solver != ContactSolver::Soft &&
-         (w.any_strained || w.def.contact_solver == ContactSolver::Newton);
+  if (!hasContacts(w) || w.def.contact_solver == ContactSolver::Soft) return false;
+  return w.def.contact_solver == ContactSolver::Newton || (w.any_strained && w.def.pipeline != Pipeline::Simple);
 }
 bool hasNewtonIslands(const World::Impl& w) { return w.num_newton_islands > 0; }
 bool hasFreeComponents(const World::Impl& w) { return !w.free_components.empty(); }
@@ -31,6 +32,11 @@ bool reportsEvents(const World::Impl& w) {
                                  !e.next_fell_asleep.empty() || !e.fell_asleep.empty() || !e.end.empty() || !e.leave.empty());
 }
 bool hasModified(const World::Impl& w) { return !w.modified.empty(); }
+bool hasMovingMeshes(const World::Impl& w) {
+  for (const MeshMotion& m : w.mesh_motions)
+    if (m.is_moving) return true;
+  return false;
+}
 bool hasParticles(const World::Impl& w) { return !w.particle_store.empty(); }
 bool sleeps(const World::Impl& w) { return w.def.sleeping && !w.active.empty(); }
 
@@ -51,6 +57,7 @@ constexpr std::array kSimple = {
     Stage{"key frames", hasKeyframes, stage::followKeyframes},
     Stage{"continuous", hasPairs, stage::stopAtImpacts},
     Stage{"particles", hasParticles, stage::moveParticles},
+    Stage{"moving meshes", hasMovingMeshes, stage::endMeshMotions},
     Stage{"events", reportsEvents, stage::reportEvents},
 };
 
@@ -74,6 +81,7 @@ constexpr std::array kStable = {
     Stage{"store impulses", hasContacts, stage::storeImpulses},
     Stage{"modified impulses", hasModified, stage::keepModifiedImpulses},
     Stage{"particles", hasParticles, stage::moveParticles},
+    Stage{"moving meshes", hasMovingMeshes, stage::endMeshMotions},
     Stage{"sleep", sleeps, stage::putToSleep},
     Stage{"events", reportsEvents, stage::reportEvents},
 };

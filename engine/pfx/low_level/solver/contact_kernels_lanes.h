@@ -186,6 +186,15 @@ inline void relaxNormals(Batch& c, const V8& n, F8 inv_h) {
   }
 }
 
+// Smaller eigenvalue of a symmetric 2 x 2 matrix.
+inline F8 smallerEigenvalue(F8 m11, F8 m12, F8 m22) {
+  const F8 difference = m11 - m22, twice = m12 + m12;
+  return F8::set(0.5f) * ((m11 + m22) - sqrt(difference * difference + twice * twice));
+}
+
+// What sticks is stopped at once by the 2 x 2 block. What slides must be braked against its velocity, but the block turns
+// the impulse away from that where the body also turns; there a mass that is the same both ways takes its place, the
+// largest for which the projection converges.
 inline void solveFriction(Batch& c, const V8& n, F8 spread) {
   ContactRows& r = c.rows;
   const V8 t1 = V8::load(r.tangent), t2 = cross(n, t1);
@@ -202,6 +211,10 @@ inline void solveFriction(Batch& c, const V8& n, F8 spread) {
     const F8 old1 = F8::load(p.tangent_impulse[0]), old2 = F8::load(p.tangent_impulse[1]);
     F8 x1 = old1 - (m11 * v1 + m12 * v2), x2 = old2 - (m12 * v1 + m22 * v2);
     const F8 limit = friction * F8::load(p.normal_impulse);
+    const F8 slides = x1 * x1 + x2 * x2 > limit * limit;
+    const F8 mass = smallerEigenvalue(m11, m12, m22);
+    x1 = select(slides, old1 - mass * v1, x1);
+    x2 = select(slides, old2 - mass * v2, x2);
     const F8 length2 = x1 * x1 + x2 * x2;
     const F8 scale =
         select(length2 > limit * limit, limit / max(sqrt(length2), F8::set(1e-30f)), F8::set(1.0f));

@@ -78,7 +78,11 @@ void NewtonIsland::addContact(const ContactConstraint& constraint) {
     const Vec3d friction = m.points[i].friction_impulse.cast<double>();
     p.impulse[1] = friction.dot(c.axis[1]), p.impulse[2] = friction.dot(c.axis[2]);
     rowSpeeds(c, p, velocityOf(c.body[0]), velocityOf(c.body[1]), p.speed);
-    p.approach = p.speed[0];
+    // where the surfaces meet: with acceleration a and separation s, v'^2 = v^2 - 2 a s
+    const double along = c.axis[0].dot(body[1]->acceleration - body[0]->acceleration);
+    p.approach = p.speed[0] < 0.0
+                     ? -std::sqrt(std::max(p.speed[0] * p.speed[0] - 2.0 * along * p.separation, 0.0))
+                     : p.speed[0];
     p.most_normal = 0.0;
     std::fill(p.curvature, p.curvature + 4, -1.0);
   }
@@ -90,8 +94,7 @@ void NewtonIsland::setStiffness(NewtonPoint& p, const double (&inverse_mass)[2],
   const double size = std::min(p.arm[0].norm(), p.arm[1].norm());
   const double deepest = params_.max_overlap * size * params_.push_rate / params_.h;  // m/s, its push
   // in large steps, so that the stiffness does not follow every change of the load
-  for (int i = 0; i < kMostStiffenings && load > p.stiffness[0] * deepest; ++i)
-    p.stiffness[0] *= kStiffening;
+  for (int i = 0; i < kMostStiffenings && load > p.stiffness[0] * deepest; ++i) p.stiffness[0] *= kStiffening;
 }
 
 void NewtonIsland::makeStructure() {

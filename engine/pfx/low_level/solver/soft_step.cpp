@@ -1,5 +1,8 @@
 #include "pfx/low_level/solver/soft_step.h"
 
+#include <algorithm>
+#include <cmath>
+
 namespace pfx {
 namespace {
 
@@ -28,6 +31,28 @@ void forBodies(std::span<SolverBody> bodies, std::span<BodyMotion> motions, Task
     const size_t n = r.end - r.begin;
     fn(bodies.subspan(r.begin, n), motions.subspan(r.begin, n));
   });
+}
+
+float surfaceSpeed(float approach, float separation, float acceleration) {
+  return -std::sqrt(std::max(approach * approach - 2.0f * acceleration * separation, 0.0f));
+}
+
+// Impacts of a batch count by the speed where the surfaces meet, not by that at the start of the step: with
+// acceleration a and separation s, v'^2 = v^2 - 2 a s.
+void measureAtSurface(ContactRows& rows, std::span<const BodyMotion> motions, float threshold) {
+  const auto acceleration = [&](int32_t body) -> Vec3 {
+    const auto i = static_cast<size_t>(body);
+    return i < motions.size() && motions[i].inertia ? motions[i].acceleration : Vec3(Vec3::Zero());
+  };
+  for (uint32_t i = 0; i < rows.num_points; ++i) {
+    ContactPointRows& p = rows.points[i];
+    for (int lane = 0; lane < kRowLanes; ++lane) {
+      if (!(p.approach_speed[lane] < -threshold)) continue;
+      const Vec3 n(rows.normal[0][lane], rows.normal[1][lane], rows.normal[2][lane]);
+      const float along = n.dot(acceleration(rows.body_b[lane]) - acceleration(rows.body_a[lane]));
+      p.approach_speed[lane] = surfaceSpeed(p.approach_speed[lane], p.separation[lane], along);
+    }
+  }
 }
 
 }  // namespace
@@ -83,8 +108,8 @@ void SoftStep::run(ContactKernels::Fn kernel, std::span<SolverBody> bodies, Task
   }
 }
 
-// Joints and contacts take turns, so that a direct solve sees what the contacts of its bodies did. One turn is enough
-// for either of them alone.
+// Joints and contacts take turns, so that a direct solve sees what the contacts of its bodies did. One turn
+// is enough for either of them alone.
 void SoftStep::push(const ContactKernels& kernels, std::span<SolverBody> bodies, JointStep& joints,
                     TaskManager& tasks) {
   if (joints.empty()) return run(kernels.push, bodies, tasks);
@@ -98,6 +123,8 @@ void SoftStep::push(const ContactKernels& kernels, std::span<SolverBody> bodies,
 void SoftStep::solve(std::span<SolverBody> bodies, std::span<BodyMotion> motions,
                      const SoftStepParams& params, JointStep& joints, TaskManager& tasks) {
   const ContactKernels& kernels = contactKernels(params.simd);
+  for (size_t b = 0; b < lanes_.size() / kRowLanes; ++b)
+    if (rows_[b].has_restitution) measureAtSurface(rows_[b], motions, params.restitution_threshold);
   for (int i = 0; i < params.substeps; ++i) {
     forBodies(bodies, motions, tasks, [&](auto b, auto m) { integrateVelocities(b, m, params.h); });
     if (i == 0 && params.warm_start) run(kernels.warm_start, bodies, tasks);
