@@ -80,7 +80,7 @@ const std::array kHeroWay = {
     Leg{.to = {-2.3f, 0.0f, -4.0f}, .crouch = true},                         // through the tunnel
     Leg{.to = {-5.4f, 0.0f, -4.0f}, .until = Until::Time, .seconds = 2.6f},  // behind the crate
     Leg{.to = {-4.6f, 0.0f, -1.4f}},
-    Leg{.to = {-4.6f, 0.0f, -1.4f}, .until = Until::Time, .seconds = 0.8f, .crouch = true},
+    Leg{.to = {}, .speed = 0.0f, .until = Until::Time, .seconds = 0.8f, .crouch = true},
     Leg{.to = {-4.6f, 0.0f, -1.4f}, .until = Until::Time, .seconds = 1.4f, .jump = true},
     Leg{.to = {-4.0f, 0.0f, 1.45f}},
     Leg{.to = {-7.6f, 0.0f, 1.45f}, .seconds = 5.0f},

@@ -196,7 +196,8 @@ struct SlopesAndSteps final : Scene {
     for (const size_t refused : {size_t{3}, size_t{7}})
       refused_climb_ = std::max(refused_climb_, feetOf(troupe_[refused], world).y());
     const Vec3 v = world.states()[troupe_[1].body.index].linear_velocity;
-    if (v.y() > 0.3f) slope_speed_ = v.norm();
+    const float height = feetOf(troupe_[1], world).y();
+    if (height > 0.5f && height < 1.8f) slope_speed_ = v.norm();
   }
 
   void draw(const World& world, Canvas& canvas) const override {

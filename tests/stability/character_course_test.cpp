@@ -46,8 +46,8 @@ TEST(CharacterCourse, APersonTakesOver) {
   const pfx::Vec3 from = hero();
   // Seen from behind (yaw 0) forward is -z.
   run.scene->control({.forward = 1.0f, .run = true});
-  for (int i = 0; i < 90; ++i) run.step();
-  EXPECT_LT(hero().z() - from.z(), -4.0f);
+  for (int i = 0; i < 50; ++i) run.step();
+  EXPECT_LT(hero().z() - from.z(), -2.0f);
   EXPECT_NEAR(hero().x(), from.x(), 0.05f);
   const float low = hero().y();
   run.scene->control({.jump = true});
