@@ -76,10 +76,10 @@ struct NativeWorld {
   std::vector<pfx::RigidState> states;
   std::vector<pfx::ImpulseBody> bodies{kBoxes + 1};
   struct Manifold {
-    int count;
+    int count = 0;
     pfx::ContactPoint points[4];
-    pfx::ImpulsePoint impulses[4];
-    pfx::Vec3 normal;
+    pfx::ImpulsePoint impulses[4] = {};
+    pfx::Vec3 normal = pfx::Vec3::Zero();
   };
   std::vector<Manifold> manifolds{kBoxes};
 

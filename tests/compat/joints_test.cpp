@@ -23,12 +23,43 @@ struct Joined {
   PfxJoint& joint() { return scene.joints[0]; }
   const PfxRigidState& a() { return scene.states[0]; }
   PfxRigidState& b() { return scene.states[1]; }
+  // The lever is ten times as long as the box is thick: ten iterations would not bring its rows together.
   void run(int steps) {
-    for (int i = 0; i < steps; ++i) scene.step();
+    for (int i = 0; i < steps; ++i) scene.step(0.016f, 50);
   }
   // Rotation vector of B, small angles.
   PfxVector3 turned() { return 2.0f * b().getOrientation().getXYZ(); }
 };
+
+TEST(CompatJoints, ASliderMovesAlongItsDirectionAndStopsAtItsEnds) {
+  Joined j;
+  PfxSliderJointInitParam param;
+  param.direction = PfxVector3(0, 1, 0);
+  param.lowerDistance = 0.0f, param.upperDistance = 0.5f;
+  ASSERT_EQ(pfxInitializeSliderJoint(j.joint(), j.a(), j.b(), param), SCE_PFX_OK);
+  j.b().setLinearVelocity(PfxVector3(1, 2, 1));
+  j.run(100);
+  EXPECT_NEAR(j.b().getPosition()[0], 2.0f, 0.01f);
+  EXPECT_NEAR(j.b().getPosition()[2], 0.0f, 0.01f);
+  EXPECT_NEAR(j.b().getPosition()[1], 0.5f, 0.02f);
+  EXPECT_LT(length(j.turned()), 0.01f);
+}
+
+TEST(CompatJoints, AFixedJointHoldsUnderBothOfItsNames) {
+  for (int name = 0; name < 2; ++name) {
+    Joined j;
+    PfxFixJointInitParam param;
+    ASSERT_EQ(name == 0 ? pfxInitializeFixedJoint(j.joint(), j.a(), j.b(), param)
+                        : pfxInitializeFixJoint(j.joint(), j.a(), j.b(), param),
+              SCE_PFX_OK);
+    EXPECT_EQ(j.joint().m_type, kPfxJointFix);
+    j.b().setLinearVelocity(PfxVector3(1, 2, 1));
+    j.b().setAngularVelocity(PfxVector3(1, 2, 1));
+    j.run(100);
+    EXPECT_LT(length(j.b().getPosition() - PfxVector3(2, 0, 0)), 0.01f);
+    EXPECT_LT(length(j.turned()), 0.01f);
+  }
+}
 
 TEST(CompatJoints, ASwingTwistJointStaysInItsCone) {
   Joined j;
@@ -55,6 +86,36 @@ TEST(CompatJoints, AUniversalJointSwingsAboutTwoAxesAndDoesNotTwist) {
   j.b().setLinearVelocity(PfxVector3(0, 0.6f, 0));
   j.run(30);
   EXPECT_GT(j.b().getPosition()[1], 0.1f);
+}
+
+TEST(CompatJoints, AJointFrameTakesThePlaceOfTheAxis) {
+  Joined j;
+  PfxHingeJointInitParam param;
+  param.axis = PfxVector3(1, 0, 0);
+  param.enableJointFrame = true;
+  param.jointFrame = PfxMatrix3(PfxVector3(0, 0, 1), PfxVector3(1, 0, 0), PfxVector3(0, 1, 0));  // hinge about z
+  ASSERT_EQ(pfxInitializeHingeJoint(j.joint(), j.a(), j.b(), param), SCE_PFX_OK);
+  j.b().setLinearVelocity(PfxVector3(0, 1, 1));
+  j.run(30);
+  EXPECT_GT(j.b().getPosition()[1], 0.2f);
+  EXPECT_NEAR(j.b().getPosition()[2], 0.0f, 0.02f);
+}
+
+TEST(CompatJoints, DampingTakesVelocityInTheMovableDirection) {
+  PfxFloat speed[2];
+  for (int i = 0; i < 2; ++i) {
+    Joined j;
+    PfxHingeJointInitParam param;
+    param.axis = PfxVector3(0, 0, 1);
+    param.damping = 0.1f * i;
+    ASSERT_EQ(pfxInitializeHingeJoint(j.joint(), j.a(), j.b(), param), SCE_PFX_OK);
+    j.b().setLinearVelocity(PfxVector3(0, 1, 0));
+    j.b().setAngularVelocity(PfxVector3(0, 0, 0.5f));
+    j.run(20);
+    speed[i] = length(j.b().getLinearVelocity());
+  }
+  EXPECT_NEAR(speed[0], 1.0f, 0.02f);
+  EXPECT_NEAR(speed[1], std::pow(0.9f, 20.0f), 0.02f);  // a tenth in every step
 }
 
 TEST(CompatJoints, WithoutWeightThereIsNoJointAndWithoutBiasTheErrorStays) {
