@@ -14,6 +14,8 @@ constexpr std::array kSamples = {
     raycastScenes,
     jointScenes,
     serializeScenes,
+    deformMeshScenes,
+    particlePhysicsScenes,
     characterScenes,
     xmlImportScenes,
     tutorialScenes,

@@ -14,6 +14,8 @@ std::vector<SceneEntry> motionTypeScenes();  // 4_motion_type
 std::vector<SceneEntry> raycastScenes();     // 5_raycast
 std::vector<SceneEntry> jointScenes();       // 6_joint
 std::vector<SceneEntry> serializeScenes();   // 7_serialize
+std::vector<SceneEntry> deformMeshScenes();       // 8_deform_mesh
+std::vector<SceneEntry> particlePhysicsScenes();  // 9_particle_physics
 std::vector<SceneEntry> characterScenes();   // 10_character_ctrl
 std::vector<SceneEntry> xmlImportScenes();   // 11_xml_import
 std::vector<SceneEntry> tutorialScenes();    // tutorial

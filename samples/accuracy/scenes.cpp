@@ -45,7 +45,12 @@ class AccuracyScene final : public Scene {
     drawTrail(canvas, ought_, {.color = kTruthTrail, .width = 4.0f});
     drawTrail(canvas, is_, {.color = kSimulatedTrail, .width = 1.5f});
     drawArms(world, canvas);
-    if (!ought_.empty()) canvas.label(ought_.back(), errorText());
+    const std::vector<accuracy::Truth> truth = run_->truth();
+    if (truth.empty()) return;
+    // Above the last body, or the middle one of many, where nothing hides it.
+    const accuracy::Truth& last = truth.size() > 20 ? truth[truth.size() / 2] : truth.back();
+    const Vec3 above(0.0f, 1.25f * world.collidables()[last.body].half_extent.norm(), 0.0f);
+    canvas.label(last.pose.position.cast<float>() + above, errorText());
   }
 
   std::vector<Reading> readings(const World&) const override {
@@ -116,7 +121,7 @@ const std::vector<View>& views() {
       {"heavy_chain", {{0.7f, -0.95f, 0}, 4.6f, 16.0f, 8.0f}, {0, 30, 60}},
       {"catenary", {{4.0f, -1.3f, 0}, 8.0f, 14.0f, 6.0f}, {0, 60, 300}},
       {"puck", {{0.5f, 0.0f, 0}, 1.5f, 20.0f, 34.0f}, {0, 30, 90}},
-      {"masse_shot", {{0.6f, 0.0f, 0.6f}, 2.3f, 35.0f, 35.0f}, {0, 30, 100}},
+      {"masse_shot", {{0.7f, 0.0f, 0.75f}, 3.0f, 35.0f, 35.0f}, {0, 30, 100}},
       {"heavy_on_light", {{0, 2.5f, 0}, 11.0f, 30.0f, 12.0f}, {0, 60, 300}},
   };
   return table;

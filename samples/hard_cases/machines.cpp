@@ -1,4 +1,4 @@
-// HARD-12, 14, 16 and 19: a chain with a huge load, loops of joints, a fast rotor, elastic balls.
+// HARD-12, 14 and 19: a chain with a huge load, loops of joints, elastic balls.
 #include <cmath>
 
 #include "pfx/base_level/math/trig.h"
@@ -115,26 +115,6 @@ struct Loops final : WitnessedScene {
   }
 };
 
-// A disc that spins at 1000 rad/s falls flat onto the floor, and one at an angle.
-struct Rotors final : WitnessedScene {
-  void fill(World& world) override {
-    addGround(world);
-    const Quat flat = rotation(Vec3::UnitZ(), 0.5f * kPi), inclined = rotation(Vec3::UnitZ(), 0.5f * kPi - 0.5f);
-    for (const auto& [x, turn] : {std::pair(-1.5f, flat), std::pair(1.5f, inclined)})
-      world.addBody({.name = "rotor",
-                     .pose = {Vec3(x, 0.8f, 0), turn},
-                     .angular_velocity = 1000.0f * (turn * Vec3::UnitX()),
-                     .shapes = {shape(Cylinder{0.05f, 0.5f}), shape(Box{Vec3(0.08f, 0.45f, 0.06f)})},
-                     .restitution = 0.0f,
-                     .friction = 0.5f});
-  }
-  std::vector<Reading> readings(const World& world) const override {
-    double highest = 0.0;
-    for (const RigidState& s : world.states()) highest = std::max(highest, double(s.position.y()));
-    return {{"fastest so far", "m/s", witness().fastest, 500.0}, {"highest now", "m", highest}};
-  }
-};
-
 // Sixty-four balls that lose nothing in a box without weight: their energy must stay.
 struct ElasticBalls final : WitnessedScene {
   static constexpr float kHalf = 3.0f, kRadius = 0.3f, kSpeed = 5.0f;
@@ -201,13 +181,6 @@ std::vector<SceneEntry> machineScenes() {
        .frames = {0, 40, 200},
        .world = {},
        .make = make<Loops>},
-      {.sample = sample,
-       .name = "rotors",
-       .shows = "discs that turn 160 times a second touch the floor; neither is launched",
-       .camera = {.target = {0, 0.6f, 0}, .distance = 7.5f, .yaw_deg = 18.0f, .pitch_deg = 18.0f},
-       .frames = {0, 30, 120},
-       .world = {},
-       .make = make<Rotors>},
       {.sample = sample,
        .name = "elastic_balls",
        .shows = "64 balls that lose nothing; their energy stays for thousands of collisions",

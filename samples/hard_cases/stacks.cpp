@@ -170,7 +170,7 @@ std::vector<SceneEntry> stackScenes() {
        .make = [] { return std::unique_ptr<Scene>(std::make_unique<Overlaps>()); }},
       {.sample = sample,
        .name = "tiny_pyramids",
-       .shows = "pyramids of boxes of 5 mm and of 1 mm stand as those of a metre do",
+       .shows = "pyramids of boxes of 5 mm and of 1 mm: a length that an engine has fixed somewhere shows here",
        .camera = {.target = {0, 0.042f, 0.015f}, .distance = 0.24f, .yaw_deg = 24.0f, .pitch_deg = 16.0f},
        .frames = {0, 60, 300},
        .world = {},

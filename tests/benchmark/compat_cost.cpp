@@ -76,10 +76,10 @@ struct NativeWorld {
   std::vector<pfx::RigidState> states;
   std::vector<pfx::ImpulseBody> bodies{kBoxes + 1};
   struct Manifold {
-    int count;
+    int count = 0;
     pfx::ContactPoint points[4];
-    pfx::ImpulsePoint impulses[4];
-    pfx::Vec3 normal;
+    pfx::ImpulsePoint impulses[4] = {};
+    pfx::Vec3 normal = pfx::Vec3::Zero();
   };
   std::vector<Manifold> manifolds{kBoxes};
 
@@ -91,7 +91,6 @@ struct NativeWorld {
     }
     for (int i = 0; i < kBoxes; ++i) {
       Manifold& m = manifolds[i];
-      m = {};
       m.count = w.contacts[i].getNumContacts();
       for (int k = 0; k < m.count; ++k) {
         const PfxContactPoint& p = w.contacts[i].getContactPoint(k);

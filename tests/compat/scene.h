@@ -41,6 +41,7 @@ struct Scene {
   std::vector<PfxBroadphasePair> pairs;
   PfxTaskManager* tasks = nullptr;
   PfxFloat separate_bias = 0.2f;
+  PfxVector3 gravity = PfxVector3(0.0f, -9.8f, 0.0f);
 
   PfxUInt16 add(const PfxShape& shape, const PfxVector3& position, ePfxMotionType type, PfxFloat mass = 1.0f) {
     const PfxUInt16 id = static_cast<PfxUInt16>(states.size());
@@ -152,7 +153,7 @@ struct Scene {
   void step(PfxFloat time_step = 0.016f, PfxUInt32 iterations = 10) {
     const PfxUInt32 n = static_cast<PfxUInt32>(states.size());
     for (PfxUInt32 i = 0; i < n; ++i)
-      pfxApplyExternalForce(states[i], bodies[i], bodies[i].getMass() * PfxVector3(0.0f, -9.8f, 0.0f), PfxVector3(0.0f), time_step);
+      pfxApplyExternalForce(states[i], bodies[i], bodies[i].getMass() * gravity, PfxVector3(0.0f), time_step);
     updatePairs();
     collide();
     solve(time_step, iterations);

@@ -191,7 +191,7 @@ class BrowserTest(unittest.TestCase):
         self.pause()
         self.assertEqual(self.selection(), [])
         self.click(640, 480)
-        self.wait(lambda: self.selection() and re.match(r"(box|body|ground)", self.selection()[0]))
+        self.wait(lambda: self.selection() and re.match(r"(brick|ground)", self.selection()[0]))
         self.key("Escape")
         self.wait(lambda: not self.selection())
 
@@ -213,7 +213,7 @@ class BrowserTest(unittest.TestCase):
         self.click(1160, 26)
         time.sleep(1)
         last, changes = self.still_picture(), 0
-        for y in range(50, 420, 12):
+        for y in range(72, 530, 12):
             for x in (1003, 1121):
                 self.xdo("mousemove", str(x), str(y))
                 time.sleep(0.15)

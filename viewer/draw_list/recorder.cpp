@@ -93,7 +93,7 @@ pfx::DebugRenderCallbacks Recorder::callbacks() {
     addBox(*self(r).list_, pose, half_extent, self(r).style(color));
   };
   c.define_solid = [](void* r, uint64_t key, const pfx::Geometry& geometry) {
-    self(r).placements_[key] = placementOf(key, geometry, *self(r).list_);
+    self(r).placements_[key] = placementOf(key, geometry, *self(r).list_, self(r).lifetime);
   };
   c.draw_solids = [](void* r, uint64_t key, std::span<const pfx::SolidInstance> instances) {
     self(r).draw(key, instances);
@@ -101,19 +101,21 @@ pfx::DebugRenderCallbacks Recorder::callbacks() {
   return c;
 }
 
-Placement placementOf(uint64_t key, const pfx::Geometry& geometry, DrawList& list) {
+Placement placementOf(uint64_t key, const pfx::Geometry& geometry, DrawList& list, Lifetime lifetime) {
   if (const auto* s = std::get_if<pfx::Sphere>(&geometry)) return {kRound, Vec3(0.0f, s->radius, s->radius)};
   if (const auto* c = std::get_if<pfx::Capsule>(&geometry))
     return {kRound, Vec3(c->half_length, c->radius, c->radius)};
   if (const auto* b = std::get_if<pfx::Box>(&geometry)) return {kUnitBox, b->half_extent};
   if (const auto* y = std::get_if<pfx::Cylinder>(&geometry))
     return {kUnitCylinder, Vec3(y->half_length, y->radius, y->radius)};
-  if (!list.hasMesh(key)) {
-    if (const auto* convex = std::get_if<const pfx::ConvexMesh*>(&geometry); convex && *convex)
-      list.defineMesh(key, triangulate(**convex));
-    else if (const auto* mesh = std::get_if<const pfx::LargeMesh*>(&geometry); mesh && *mesh)
-      list.defineMesh(key, triangulate(**mesh));
-  }
+  const auto define = [&](const auto& mesh) {
+    if (lifetime == Lifetime::Transient)
+      list.defineTransientMesh(key, [&] { return triangulate(mesh); });
+    else if (!list.hasMesh(key))
+      list.defineMesh(key, triangulate(mesh));
+  };
+  if (const auto* convex = std::get_if<const pfx::ConvexMesh*>(&geometry); convex && *convex) define(**convex);
+  if (const auto* mesh = std::get_if<const pfx::LargeMesh*>(&geometry); mesh && *mesh) define(**mesh);
   return {key, Vec3::Ones()};
 }
 

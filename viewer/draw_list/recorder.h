@@ -14,8 +14,12 @@ struct Placement {
   pfx::Vec3 scale;
 };
 
+// How long a list knows the mesh of a geometry: for good, or until a frame does not show it.
+enum class Lifetime : uint8_t { Kept, Transient };
+
 // The placement of a geometry, whose mesh is made known under `key` if it is none of the unit meshes.
-Placement placementOf(uint64_t key, const pfx::Geometry& geometry, DrawList& list);
+Placement placementOf(uint64_t key, const pfx::Geometry& geometry, DrawList& list,
+                      Lifetime lifetime = Lifetime::Kept);
 
 // Keep one recorder beside each list: it remembers which of the engine's keys became which mesh. The
 // callbacks point to the recorder, which must outlive them.
@@ -35,6 +39,7 @@ class Recorder {
   float point_size = 7.0f;  // px
   uint32_t pick = 0;        // id of immediate items that follow
   std::vector<Color> body_colors;  // by body: of its solids instead of their own; 0 or missing: their own
+  Lifetime lifetime = Lifetime::Kept;  // of meshes that are announced
 
  private:
   Line style(pfx::Color color) const { return {{}, {}, color, line_width, pick}; }

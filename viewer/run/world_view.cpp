@@ -121,6 +121,12 @@ void WorldView::addImmediate(const OverlayScene& scene) {
 }
 
 void WorldView::add(const pfx::World& world, const Overlays& overlays, const ViewExtras& extras) {
+  // What a deformed mesh looked like before would only fill memory, so all are announced again in every frame.
+  if (world.deformations() > 0) {
+    debug_.forgetSolids();
+    recorder_.reset();
+    recorder_.lifetime = Lifetime::Transient;
+  }
   const auto states = world.states();
   debug_.resetVisible(uint32_t(states.size()));
   for (uint32_t body = 0; body < states.size(); ++body)

@@ -14,7 +14,9 @@ constexpr uint32_t kProxyGrain = 256;
 ContactReach reachOf(const World::Impl& w, uint32_t i) {
   const RigidState& s = w.store.states[i];
   const float size = w.store.size[i];
-  const float speed = s.linear_velocity.norm() + s.angular_velocity.norm() * w.store.radius[i];
+  const MeshMotion* surface = w.motionOf(i);
+  const float speed = s.linear_velocity.norm() + s.angular_velocity.norm() * w.store.radius[i] +
+                      (surface ? surface->fastest : 0.0f);
   return {.resting = kRestingMargin * size, .travel = std::min(speed * w.dt, size)};
 }
 

@@ -44,9 +44,10 @@ NewtonParams newtonParams(const World::Impl& w) {
   return {.h = static_cast<double>(w.dt) / w.def.substeps, .substeps = w.def.substeps};
 }
 
-// Whether every body that a constraint could move is moved by it.
+// Whether every body that a constraint could move is moved by it, and none has a surface that moves by itself.
 bool isSymmetric(const World::Impl& w, const ContactConstraint& c) {
-  return c.writable_a == isDynamic(w.store.states[c.solver_a].motion_type) &&
+  return w.motionOf(c.solver_a) == nullptr && w.motionOf(c.solver_b) == nullptr &&
+         c.writable_a == isDynamic(w.store.states[c.solver_a].motion_type) &&
          c.writable_b == isDynamic(w.store.states[c.solver_b].motion_type);
 }
 

@@ -91,19 +91,47 @@ void beginComponent(World::Impl& w, JointComponent& c, const DirectStepParams& p
   c.direct.begin(w.store.states, w.store.bodies, c.motions, params);
 }
 
-void setUpSolver(World::Impl& w) {
+namespace {
+
+// From bodies to solver bodies. A contact on a moving mesh is held by a solver body of its own behind those of the
+// bodies, which goes with the surface.
+void numberConstraints(World::Impl& w) {
   for (uint32_t k = 0; k < w.solved.size(); ++k) w.solver_index[w.solved[k]] = k;
+  w.surfaces.clear();
+  const auto numbered = [&](uint32_t body, const ContactManifold& m) {
+    const MeshMotion* motion = w.motionOf(body);
+    if (motion == nullptr) return w.solver_index[body];
+    w.surfaces.push_back({body, w.surfaceVelocity(body, m, *motion)});
+    return static_cast<uint32_t>(w.solved.size() + w.surfaces.size() - 1);
+  };
   for (ContactConstraint& c : w.constraints) {
-    c.solver_a = w.solver_index[c.solver_a];
-    c.solver_b = w.solver_index[c.solver_b];
+    c.solver_a = numbered(c.solver_a, *c.manifold);
+    c.solver_b = numbered(c.solver_b, *c.manifold);
   }
+}
+
+void makeSurfaces(World::Impl& w, float h) {
+  for (uint32_t k = 0; k < w.surfaces.size(); ++k) {
+    const uint32_t body = w.surfaces[k].body;
+    RigidState state = w.store.states[body];
+    state.linear_velocity = w.surfaces[k].velocity;
+    w.solver_bodies[w.solved.size() + k] = makeSolverBody(state, w.store.bodies[body], w.store.inertias[body]);
+    w.motions[w.solved.size() + k] = makeMotion(w, body, h);
+  }
+}
+
+}  // namespace
+
+void setUpSolver(World::Impl& w) {
+  numberConstraints(w);
   const SoftStepParams params = solveParams(w);
-  const uint32_t n = static_cast<uint32_t>(w.solved.size());
+  const uint32_t n = static_cast<uint32_t>(w.solved.size() + w.surfaces.size());
   w.solver_bodies.resize(n + 1);
   w.solver_bodies[n] = SolverBody{};  // for idle lanes
   w.motions.resize(n);
   w.solver_dynamic.assign(n + 1, 0);
-  w.tasks.parallelFor(n, kBodyGrain, [&](TaskRange r) {
+  makeSurfaces(w, params.h);
+  w.tasks.parallelFor(static_cast<uint32_t>(w.solved.size()), kBodyGrain, [&](TaskRange r) {
     for (uint32_t k = r.begin; k < r.end; ++k) {
       const uint32_t i = w.solved[k];
       w.solver_bodies[k] = makeSolverBody(w.store.states[i], w.store.bodies[i], w.store.inertias[i]);

@@ -32,6 +32,11 @@ bool reportsEvents(const World::Impl& w) {
                                  !e.next_fell_asleep.empty() || !e.fell_asleep.empty() || !e.end.empty() || !e.leave.empty());
 }
 bool hasModified(const World::Impl& w) { return !w.modified.empty(); }
+bool hasMovingMeshes(const World::Impl& w) {
+  for (const MeshMotion& m : w.mesh_motions)
+    if (m.is_moving) return true;
+  return false;
+}
 bool hasParticles(const World::Impl& w) { return !w.particle_store.empty(); }
 bool sleeps(const World::Impl& w) { return w.def.sleeping && !w.active.empty(); }
 
@@ -52,6 +57,7 @@ constexpr std::array kSimple = {
     Stage{"key frames", hasKeyframes, stage::followKeyframes},
     Stage{"continuous", hasPairs, stage::stopAtImpacts},
     Stage{"particles", hasParticles, stage::moveParticles},
+    Stage{"moving meshes", hasMovingMeshes, stage::endMeshMotions},
     Stage{"events", reportsEvents, stage::reportEvents},
 };
 
@@ -75,6 +81,7 @@ constexpr std::array kStable = {
     Stage{"store impulses", hasContacts, stage::storeImpulses},
     Stage{"modified impulses", hasModified, stage::keepModifiedImpulses},
     Stage{"particles", hasParticles, stage::moveParticles},
+    Stage{"moving meshes", hasMovingMeshes, stage::endMeshMotions},
     Stage{"sleep", sleeps, stage::putToSleep},
     Stage{"events", reportsEvents, stage::reportEvents},
 };

@@ -27,6 +27,7 @@ void breakJoints(World::Impl& world);        // joints beyond their strength are
 void rememberPoses(World::Impl& world);      // where everything that moves starts from
 void stopAtImpacts(World::Impl& world);      // what moves far goes through nothing
 void moveParticles(World::Impl& world);       // particle systems, and the bodies that they push
+void endMeshMotions(World::Impl& world);      // surfaces that were deformed stand still again
 void putToSleep(World::Impl& world);         // islands at rest fall asleep
 void noteApproaches(World::Impl& world);     // how fast bodies come together that do not touch yet
 void reportEvents(World::Impl& world);       // touches that began and ended, bodies that fell asleep and woke

@@ -65,6 +65,12 @@ void buildScene(const SceneDef& scene, World& world) {
       place = apart.place;
       world.keepApart(bodies[apart.body_a], bodies[apart.body_b]);
     }
+    for (const SceneParticles& particles : scene.particles) {
+      place = particles.place;
+      ParticleDef def = particles.def;
+      for (ParticleAnchor& anchor : def.anchors) anchor.body = bodies[anchor.body].index;
+      world.addParticles(def);
+    }
   } catch (const std::invalid_argument& e) {
     throw SceneError(place + ": " + e.what());
   }

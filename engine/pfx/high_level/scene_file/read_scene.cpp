@@ -4,6 +4,7 @@
 
 #include "pfx/high_level/scene_file/names.h"
 #include "pfx/high_level/scene_file/obj_reader.h"
+#include "pfx/high_level/scene_file/particles_file.h"
 #include "pfx/high_level/scene_file/read_joint.h"
 #include "pfx/high_level/scene_file/read_mesh.h"
 #include "pfx/high_level/scene_file/scene_file.h"
@@ -25,7 +26,7 @@ class SceneReader {
     if (version != kVersion)
       scene.fail("version " + std::to_string(version) + ", this program reads " + std::to_string(kVersion));
     scene.finish();
-    std::vector<std::string_view> known{"world", "material", "convex-mesh", "large-mesh", "body", "apart"};
+    std::vector<std::string_view> known{"world", "material", "convex-mesh", "large-mesh", "body", "apart", "particles"};
     known.insert(known.end(), jointTags().begin(), jointTags().end());
     for (XmlElement& e : scene.children(known)) readChild(e);
     return std::move(out_);
@@ -46,6 +47,11 @@ class SceneReader {
     }
     if (e.tag() == "body") readBody(e);
     if (e.tag() == "apart") readApart(e);
+    if (e.tag() == "particles") {
+      const std::string place = e.place();
+      const auto body_of = [this](XmlElement& element, std::string_view name) { return bodyIndex(element, name); };
+      out_.particles.push_back({readParticles(e, body_of), place});
+    }
     if (std::ranges::find(jointTags(), e.tag()) != jointTags().end()) {
       const uint32_t a = bodyIndex(e, "body-a"), b = bodyIndex(e, "body-b");
       SceneJoint& joint = out_.joints.emplace_back(readJoint(e));

@@ -30,6 +30,11 @@ struct SceneApart {
   std::string place;
 };
 
+struct SceneParticles {
+  ParticleDef def;  // its anchors name bodies by their index in SceneDef::bodies
+  std::string place;
+};
+
 struct SceneDef {
   WorldDef world;
   std::deque<ConvexMesh> convex_meshes;  // addresses stay
@@ -37,10 +42,11 @@ struct SceneDef {
   std::vector<SceneBody> bodies;
   std::vector<SceneJoint> joints;
   std::vector<SceneApart> apart;
+  std::vector<SceneParticles> particles;
 };
 
-// Adds the scene's meshes, bodies and joints, in their order, to a world. Throws SceneError naming the place when the
-// world refuses one.
+// Adds the scene's meshes, bodies, joints and particles, in their order, to a world. Throws SceneError naming the
+// place when the world refuses one.
 void buildScene(const SceneDef& scene, World& world);
 
 }  // namespace pfx

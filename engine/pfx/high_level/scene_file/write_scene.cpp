@@ -4,8 +4,10 @@
 #include <map>
 #include <sstream>
 
+#include "pfx/high_level/particles/particle_system.h"
 #include "pfx/high_level/scene_file/mesh_source.h"
 #include "pfx/high_level/scene_file/names.h"
+#include "pfx/high_level/scene_file/particles_file.h"
 #include "pfx/high_level/scene_file/scene_file.h"
 
 namespace pfx {
@@ -43,6 +45,8 @@ class SceneWriter {
     for (uint32_t i = 0; i < world_.joints().size(); ++i)
       if (world_.jointLinks()[i].exists) writeJoint(scene, i);
     for (const Pair& p : world_.pairsKeptApart()) writeApart(scene, p);
+    for (uint32_t i = 0; i < world_.numParticleSystems(); ++i)
+      if (const ParticleSystem* system = world_.particles(i)) writeParticles(scene, system->def());
     std::ostringstream out;
     document_.save(out, "  ");
     return out.str();

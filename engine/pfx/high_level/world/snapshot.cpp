@@ -63,6 +63,16 @@ template <class A>
 void ioMeshes(A& a, Content& c) {
   ioList(a, c.world.convex_meshes, [](A& archive, ConvexMesh& m) { io(archive, m); });
   ioList(a, c.world.large_meshes, [](A& archive, LargeMesh& m) { io(archive, m); });
+  ioList(a, c.world.mesh_motions, [&](A& archive, MeshMotion& m) {
+    io(archive, m.mesh), io(archive, m.is_moving), io(archive, m.fastest), io(archive, m.farthest);
+    io(archive, m.before), io(archive, m.now), io(archive, m.velocity);
+    if constexpr (A::kReads) {
+      archive.require(m.mesh < c.world.large_meshes.size(), "a mesh that moves is not there");
+      const size_t n = c.world.large_meshes[m.mesh].num_source_vertices;
+      archive.require(m.before.size() == n && m.now.size() == n && m.velocity.size() == n,
+                      "a mesh that moves has another number of vertices");
+    }
+  });
 }
 
 template <class A>
@@ -89,6 +99,34 @@ void ioJoints(A& a, Content& c) {
   if constexpr (A::kReads) c.world.apart.assign(std::move(apart));
 }
 
+// A removed system leaves its slot, and an empty definition.
+template <class A>
+void ioParticles(A& a, Content& c) {
+  ParticleStore& store = c.world.particle_store;
+  io(a, store.generations);
+  auto& systems = store.systems;
+  ioList(a, systems, [&](A& archive, std::unique_ptr<ParticleSystem>& system) {
+    ParticleDef def;
+    if constexpr (!A::kReads)
+      if (system) def = system->def();
+    io(archive, def);
+    if constexpr (A::kReads) {
+      if (def.positions.empty()) return;
+      try {
+        system = std::make_unique<ParticleSystem>(def, c.world.store.states);
+      } catch (const std::invalid_argument& e) {
+        archive.fail(e.what());
+      }
+      ++store.count;
+    }
+  });
+  if constexpr (A::kReads) {
+    bool fits = store.generations.size() == systems.size();
+    for (size_t i = 0; fits && i < systems.size(); ++i) fits = (store.generations[i] % 2 == 1) == (systems[i] != nullptr);
+    a.require(fits, "the slots of the systems are wrong");
+  }
+}
+
 template <class A>
 void ioContacts(A& a, Content& c) {
   ioPairs(a, c.world.pairs, c.world.contacts);
@@ -113,8 +151,9 @@ constexpr Section<A> kSections[] = {{"world", "WRLD", ioWorld<A>},
                                     {"meshes", "MESH", ioMeshes<A>},
                                     {"bodies", "BODY", ioBodies<A>},
                                     {"joints", "JOIN", ioJoints<A>},
-                                    {"contacts", "CONT", ioContacts<A>}};
-constexpr uint32_t kNumSections = 5;
+                                    {"contacts", "CONT", ioContacts<A>},
+                                    {"particles", "PART", ioParticles<A>}};
+constexpr uint32_t kNumSections = 6;
 
 uint32_t tagOf(const char* tag) {
   uint32_t out = 0;
@@ -332,6 +371,9 @@ void takeOver(World::Impl& w, World::Impl& from, const Memory& memory) {
   w.next_sleeper = std::move(from.next_sleeper);
   w.has_woken = from.has_woken;
   w.joint_store = std::move(from.joint_store);
+  if (!from.mesh_motions.empty() || !w.mesh_motions.empty()) ++w.num_deformations;
+  w.mesh_motions = std::move(from.mesh_motions);
+  w.particle_store = std::move(from.particle_store);
   w.broken_joints = std::move(from.broken_joints);
   w.apart = std::move(from.apart);
   w.events = std::move(from.events);

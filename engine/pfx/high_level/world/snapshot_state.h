@@ -76,6 +76,38 @@ void io(A& a, PairCache& c) {
   io(a, c.b_in_a), io(a, c.axis), io(a, c.separation), io(a, c.radius_b), io(a, c.hint);
 }
 
+template <class A>
+void io(A& a, ParticleStrand& s) {
+  io(a, s.particles), io(a, s.lengths), io(a, s.compliance), io(a, s.impulses);
+}
+template <class A>
+void io(A& a, DistanceConstraint& c) {
+  io(a, c.a), io(a, c.b), io(a, c.length), io(a, c.compliance), io(a, c.impulse);
+}
+template <class A>
+void io(A& a, AngleConstraint& c) {
+  io(a, c.a), io(a, c.b), io(a, c.c), io(a, c.length_ab), io(a, c.length_bc), io(a, c.chord), io(a, c.compliance);
+  io(a, c.impulse);
+}
+template <class A>
+void io(A& a, VolumeConstraint& c) {
+  io(a, c.a), io(a, c.b), io(a, c.c), io(a, c.d), io(a, c.volume), io(a, c.compliance), io(a, c.impulse);
+}
+template <class A>
+void io(A& a, ParticleAnchor& c) {
+  io(a, c.particle), io(a, c.body), io(a, c.local);
+}
+template <class A>
+void io(A& a, ParticleSettings& s) {
+  io(a, s.substeps), io(a, s.iterations), io(a, s.warm_start), io(a, s.radius), io(a, s.friction), io(a, s.damping);
+  io(a, s.gravity_scale), io(a, s.filter_self), io(a, s.filter_target);
+}
+template <class A>
+void io(A& a, ParticleDef& d) {
+  io(a, d.name), io(a, d.settings), io(a, d.positions), io(a, d.velocities), io(a, d.masses), io(a, d.strands);
+  io(a, d.distances), io(a, d.angles), io(a, d.volumes), io(a, d.anchors);
+}
+
 // A pair with its contact. The ids of contacts are given anew; nothing depends on them.
 template <class A>
 void ioPairs(A& a, std::vector<Pair>& pairs, ContactStore& contacts) {

@@ -100,6 +100,14 @@ class World {
   const ConvexMesh* keep(ConvexMesh mesh);
   LargeMesh* keep(LargeMesh mesh);
 
+  // Moves the vertices of a kept mesh, which only Fixed and Keyframe bodies of one shape wear, to `vertices` (as many as
+  // it was built from; mesh frame). Contacts on it follow their triangles, and a body that the surface would swallow is
+  // set upon it. The motion is taken to have lasted dt seconds: in the next step contacts know the velocity of the
+  // surface, so that it carries and throws; with 0 the surface jumps and throws nothing. Throws std::invalid_argument
+  // for another number of vertices, one that is not finite, or a mesh that is not kept or part of another kind of body.
+  void deformMesh(const LargeMesh* mesh, std::span<const Vec3> vertices, float dt);
+  uint64_t deformations() const;  // how often that was done, for views that keep meshes
+
   // Adds a body. Throws std::invalid_argument, naming the body and the field, for input that is not finite,
   // has no shape, or a mass that is not positive.
   BodyId addBody(const BodyDef& def);

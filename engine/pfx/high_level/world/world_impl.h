@@ -10,6 +10,7 @@
 #include "pfx/high_level/world/body_store.h"
 #include "pfx/high_level/world/event_store.h"
 #include "pfx/high_level/world/joint_store.h"
+#include "pfx/high_level/world/mesh_motion.h"
 #include "pfx/high_level/world/particle_store.h"
 #include "pfx/high_level/world/world.h"
 #include "pfx/low_level/broadphase/decompose.h"
@@ -142,6 +143,11 @@ struct World::Impl {
 
   ParticleStore particle_store;
 
+  // Meshes that were deformed
+  std::vector<MeshMotion> mesh_motions;
+  uint64_t num_deformations = 0;
+  std::vector<MovingSurface> surfaces;  // of this step, by solver body after those of bodies
+
   std::vector<StageTime> times;
   uint64_t stages_run = 0;  // a bit for each of the pipeline, since the world was made
   WorldCounts counts;
@@ -149,6 +155,8 @@ struct World::Impl {
 
   bool solves(const Pair& pair) const;
   ContactStrain strainOf(const ContactConstraint& constraint) const;  // solver_a, solver_b are indices of states
+  const MeshMotion* motionOf(uint32_t body) const;  // of the moving mesh that it wears, or null
+  Vec3 surfaceVelocity(uint32_t body, const ContactManifold& manifold, const MeshMotion& motion) const;  // m/s, world
   void refreshActive();
   void linkIslands();
   void hasChanged(uint32_t body);      // from outside: it stands elsewhere, is new, or is gone

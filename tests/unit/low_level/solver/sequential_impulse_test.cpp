@@ -56,10 +56,10 @@ TEST(SequentialImpulse, AGapMayCloseWithinTheStepAndNoMore) {
   b.input.distance = 0.001f;
   b.solve(1, 0.0f);
   EXPECT_NEAR((b.input.velocity.y() + b.ball.dv[1]) * b.input.time_step, -0.001f, 1e-7f);
-  b = BallOnFloor();
-  b.input.distance = 0.004f;  // 3 mm in the step do not reach the floor
-  b.solve(1, 0.0f);
-  EXPECT_EQ(b.point.rows[0].impulse, 0.0f);
+  BallOnFloor far;
+  far.input.distance = 0.004f;  // 3 mm in the step do not reach the floor
+  far.solve(1, 0.0f);
+  EXPECT_EQ(far.point.rows[0].impulse, 0.0f);
 }
 
 TEST(SequentialImpulse, AShareOfTheOverlapBeyondTheSlopIsTakenBack) {
