@@ -6,6 +6,7 @@
 #include "pfx/base_level/collision/gjk.h"
 #include "pfx/base_level/collision/mesh_contact.h"
 #include "pfx/base_level/ray/ray.h"
+#include "pfx/base_level/shape/collidable.h"
 #include "pfx/base_level/shape/convex_hull.h"
 #include "pfx/util/mesh_builder/mesh_builder.h"
 #include "tests/support/meshes.h"
