@@ -355,8 +355,10 @@ void collideFacet(const FacetContext& c, uint32_t index) {
   // only helps while the body is hardly below it.
   const bool primary = s.own.gap >= s.any.gap - slop;
   if (!primary && s.own.gap < -f.t.thickness) return;
-  // Right above an edge that hardly bends, the body is beside all facets, and only the edge is left.
-  if (!addFacetPatch(c, f, {f.t.normal, primary})) addLeaningContact(c, f, s.allowed);
+  // Right above an edge that hardly bends, the body is beside both facets, and only the edge is left. What an open edge
+  // offers is left out: the surface may go on in another mesh.
+  const bool is_beside = !addFacetPatch(c, f, {f.t.normal, primary});
+  if (is_beside && std::ranges::count(f.t.kind, EdgeKind::Open) == 0) addLeaningContact(c, f, s.allowed);
 }
 
 }  // namespace pfx
