@@ -155,7 +155,7 @@ TEST(Snapshot, HasTheSameBytesOnEveryPlatform) {
   EXPECT_EQ(at(0), 'P');
   EXPECT_EQ(at(8), 2) << "version, least byte first";
   EXPECT_EQ(at(11), 0);
-  EXPECT_EQ(at(12), 5) << "sections";
+  EXPECT_EQ(at(12), 6) << "sections";
   EXPECT_EQ(at(16), 'W');
 }
 

@@ -24,9 +24,10 @@ void addColumns(World& world, int columns, int height) {
           MotionType::Active);
 }
 
+// Whether the last step went through a stage.
 bool uses(const World& world, std::string_view stage) {
-  const auto stages = world.stages();
-  return std::find(stages.begin(), stages.end(), stage) != stages.end();
+  const auto times = world.stageTimes();
+  return std::any_of(times.begin(), times.end(), [&](const StageTime& t) { return t.name == stage; });
 }
 
 TEST(IslandSolver, TakesATallColumnAndLeavesAShortOne) {
