@@ -75,7 +75,7 @@ struct ChainRun : Run {
 
 // Judged by the largest error of an angle.
 struct Pendulum final : ChainRun {
-  Pendulum(int links, double angle) : ChainRun({.links = links}, angle, 128, true) {}
+  Pendulum(int links, double angle) : ChainRun({.links = links}, angle, 64, true) {}
   double error(std::span<const BodyMotion> bodies) const override {
     double worst = 0.0;
     for (int i = 0; i < shape.links; ++i) {

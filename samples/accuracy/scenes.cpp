@@ -115,7 +115,7 @@ struct View {
 
 const std::vector<View>& views() {
   static const std::vector<View> table = {
-      {"pendulum", {{0, -0.35f, 0}, 2.5f, 22.0f, 8.0f}, {0, 50, 300}},
+      {"pendulum", {{0, -0.1f, 0}, 2.9f, 22.0f, 8.0f}, {0, 50, 300}},
       {"free_top", {{0, 0, 0}, 6.5f, 30.0f, 22.0f}, {0, 60, 300}},
       {"heavy_top", {{0, 0.2f, 0.1f}, 2.1f, 40.0f, 14.0f}, {0, 60, 200}},
       {"heavy_chain", {{0.7f, -0.95f, 0}, 4.6f, 16.0f, 8.0f}, {0, 30, 60}},

@@ -40,9 +40,10 @@ TEST(AccuracyCase, aDoublePendulumFollowsTheTable) {
   for (size_t row = 1; row <= 20; ++row) {
     advanceTo(*run, now, ref["t"][row].get<double>());
     const auto truth = run->truth();
-    // The table is exact to 1e-12 and grows errors by less than 100.
-    EXPECT_NEAR(std::remainder(angleAboutZ(truth[0].pose.orientation) - ref["theta1"][row].get<double>(), 2 * M_PI), 0, 1e-8);
-    EXPECT_NEAR(std::remainder(angleAboutZ(truth[1].pose.orientation) - ref["theta2"][row].get<double>(), 2 * M_PI), 0, 1e-8);
+    // Gravity is rounded to a float, as in the world: 4.3e-8 more than the table's, which errors of this motion grow by
+    // up to 26 (the table's amplification).
+    EXPECT_NEAR(std::remainder(angleAboutZ(truth[0].pose.orientation) - ref["theta1"][row].get<double>(), 2 * M_PI), 0, 1e-6);
+    EXPECT_NEAR(std::remainder(angleAboutZ(truth[1].pose.orientation) - ref["theta2"][row].get<double>(), 2 * M_PI), 0, 1e-6);
   }
 }
 

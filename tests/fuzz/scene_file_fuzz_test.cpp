@@ -36,13 +36,15 @@ struct Witness {
   }
 };
 
-// The elements of a scene, one a line as writeScene() puts them. Rows of numbers in meshes do not begin with '<'.
+// The elements of a scene, one a line as writeScene() puts them. Rows of numbers in meshes do not begin with '<'; a
+// triangle whose corners became the same by a changed digit has no area, and its row is gone.
 std::vector<std::string> elementsOf(const std::string& xml) {
   std::vector<std::string> out;
   std::istringstream lines(xml);
   for (std::string line; std::getline(lines, line);) {
     const size_t begin = line.find_first_not_of(' ');
-    if (begin != std::string::npos && line[begin] == '<') out.push_back(line.substr(begin));
+    if (begin == std::string::npos || line[begin] != '<' || line.compare(begin, 2, "</") == 0) continue;
+    out.push_back(line.substr(begin));
   }
   return out;
 }

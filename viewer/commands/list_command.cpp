@@ -13,7 +13,7 @@ namespace {
 // in which what falls has landed; scenes of thousands of bodies, where everything touches from the start, run for less.
 // Stages that appear later are put behind the one that runs before them.
 std::vector<std::string> stagesOf(const SceneSpec& spec) {
-  constexpr uint32_t kBodySteps = 60000;
+  constexpr uint32_t kBodySteps = 6000;
   SceneRun run(spec);
   std::vector<std::string> names;
   const uint32_t steps = std::clamp(kBodySteps / (run.world().counts().bodies + 1), 2u, 60u);

@@ -24,6 +24,8 @@ void placePolytope(const Polytope& local, MeshBody& body, MeshBodyBuffers buffer
   body.polytope = local;
   body.polytope.vertices = buffers.vertices;
   body.polytope.planes = buffers.planes;
+  body.polytope.packed_vertices = {};  // they lie where the shape lies in its own frame
+  body.polytope.packed_normals = {};
   body.center = body.pose.toA(local.center);
   for (const Vec3& v : buffers.vertices) body.size = std::max(body.size, (v - body.center).norm());
 }
@@ -109,7 +111,8 @@ void MeshBody::supportingFeature(const Vec3& d, FeaturePolygon& polygon) const {
     }
     case Kind::Polytope: break;
   }
-  for (const uint16_t v : polytope.face(supportingFace(polytope, d))) polygon.add(polytope.vertices[v], bodyFeature(v));
+  const uint32_t face = supportingFaceAt(polytope, d, farthestVertex(polytope, d));
+  for (const uint16_t v : polytope.face(face)) polygon.add(polytope.vertices[v], bodyFeature(v));
 }
 
 MeshBody makeMeshBody(const Geometry& geometry, const Transform& pose, MeshBodyBuffers buffers) {

@@ -209,8 +209,8 @@ struct Patch {
   bool primary;
 };
 
-// The body's feature over the facet, as seen along the facet's normal.
-void addFacetPatch(const FacetContext& c, const Facet& f, const Patch& patch) {
+// The body's feature over the facet, as seen along the facet's normal. False when it lies beside the facet.
+bool addFacetPatch(const FacetContext& c, const Facet& f, const Patch& patch) {
   const Vec3& n = f.t.normal;
   const float offset = n.dot(f.t.vertex[0]);
   FeaturePolygon polygon;
@@ -227,6 +227,7 @@ void addFacetPatch(const FacetContext& c, const Facet& f, const Patch& patch) {
     addContact(c, patch.normal, patch.primary,
                {v.p - height * n, v.p - c.body.radius * n, height - c.body.radius, f.index, v.feature});
   }
+  return polygon.count > 0;
 }
 
 // The facet over one face of the body, as seen along that face's normal.
@@ -310,6 +311,29 @@ void addRoundContact(const FacetContext& c, const Facet& f, const Axis& axis) {
   }
 }
 
+// Whether body and facet share a point. Round bodies know it from their closest points.
+bool meets(const FacetContext& c, const Facet& f) {
+  const MeshBody& b = c.body;
+  if (b.kind != MeshBody::Kind::Cylinder && b.kind != MeshBody::Kind::Polytope) return true;
+  Polytope triangle;
+  triangle.vertices = f.t.vertex;
+  triangle.center = (f.t.vertex[0] + f.t.vertex[1] + f.t.vertex[2]) / 3.0f;
+  const ConvexCore facet_core = polytopeCore(triangle);
+  const bool is_cylinder = b.kind == MeshBody::Kind::Cylinder;
+  const ConvexCore core = is_cylinder ? b.core : polytopeCore(b.polytope);
+  return gjkDistance({facet_core, core, is_cylinder ? b.pose : RelativePose()}).state == GjkResult::State::Touching;
+}
+
+// What the facet contributes along the best normal of the surface that is not its own.
+void addLeaningContact(const FacetContext& c, const Facet& f, const Axis& axis) {
+  switch (axis.source) {
+    case Source::BodyFace: return addBodyFacePatch(c, f, axis);
+    case Source::EdgePair: return addEdgePair(c, f, axis);
+    case Source::Closest: return addRoundContact(c, f, axis);
+    case Source::Facet: return;
+  }
+}
+
 }  // namespace
 
 void collideFacet(const FacetContext& c, uint32_t index) {
@@ -321,21 +345,20 @@ void collideFacet(const FacetContext& c, uint32_t index) {
 
   const Search s = findAxes(c, f);
   if (s.apart) return;
+  // Deeper than the facet is thick along every normal that was looked at - or on the far side of a ridge.
+  if (std::max(s.own.gap, s.allowed.gap) < -f.t.thickness && !meets(c, f)) return;
   // Near ties go to the facet, so that a resting body does not waver between two normals.
   const float slop = 1e-3f * c.body.size;
   const bool snaps = s.allowed.normal.dot(f.t.normal) > kSnap;
-  if (!snaps && s.allowed.gap > s.own.gap + slop) {
-    switch (s.allowed.source) {
-      case Source::BodyFace: return addBodyFacePatch(c, f, s.allowed);
-      case Source::EdgePair: return addEdgePair(c, f, s.allowed);
-      default: return addRoundContact(c, f, s.allowed);
-    }
-  }
+  if (!snaps && s.allowed.gap > s.own.gap + slop) return addLeaningContact(c, f, s.allowed);
   // Where another direction would be better but is not one of the surface's, a neighbour has the contact, and the facet
   // only helps while the body is hardly below it.
   const bool primary = s.own.gap >= s.any.gap - slop;
   if (!primary && s.own.gap < -f.t.thickness) return;
-  addFacetPatch(c, f, {f.t.normal, primary});
+  // Right above an edge that hardly bends, the body is beside both facets, and only the edge is left. What an open edge
+  // offers is left out: the surface may go on in another mesh.
+  const bool is_beside = !addFacetPatch(c, f, {f.t.normal, primary});
+  if (is_beside && std::ranges::count(f.t.kind, EdgeKind::Open) == 0) addLeaningContact(c, f, s.allowed);
 }
 
 }  // namespace pfx

@@ -27,6 +27,39 @@ bool hasOrderOf(const LargeMesh& mesh, const LargeMeshSource& s, bool high_quali
   return true;
 }
 
+bool isBefore(const Vec3& a, const Vec3& b) {
+  return std::lexicographical_compare(a.data(), a.data() + 3, b.data(), b.data() + 3);
+}
+
+// Building makes one vertex of those at equal positions, the first of them, and leaves the others without a facet. Does
+// the same here, so that what is read from what was written is written the same again: vertices that no facet uses
+// stand where the first used one does, and each position goes by its first vertex.
+void joinEqualVertices(LargeMeshSource& s) {
+  std::vector<uint8_t> used(s.vertices.size());
+  const auto by_position = [&](uint32_t a, uint32_t b) {
+    if (s.vertices[a] != s.vertices[b]) return isBefore(s.vertices[a], s.vertices[b]);
+    return a < b;
+  };
+  std::vector<uint32_t> order(s.vertices.size()), first(s.vertices.size());
+  std::iota(order.begin(), order.end(), 0u);
+  const auto lead_to_first = [&] {
+    std::sort(order.begin(), order.end(), by_position);
+    for (size_t i = 0; i < order.size(); ++i) {
+      const bool equal = i > 0 && s.vertices[order[i]] == s.vertices[order[i - 1]];
+      first[order[i]] = equal ? first[order[i - 1]] : order[i];
+    }
+    for (uint32_t& v : s.indices) v = first[v];
+  };
+  lead_to_first();
+  for (uint32_t v : s.indices) used[v] = 1;
+  const auto first_used = std::find(used.begin(), used.end(), uint8_t(1));
+  if (first_used == used.end()) return;
+  const Vec3 place = s.vertices[static_cast<size_t>(first_used - used.begin())];
+  for (size_t v = 0; v < used.size(); ++v)
+    if (!used[v]) s.vertices[v] = place;
+  lead_to_first();
+}
+
 }  // namespace
 
 LargeMeshSource sourceOf(const LargeMesh& mesh) {
@@ -45,6 +78,7 @@ LargeMeshSource sourceOf(const LargeMesh& mesh) {
     out.thickness.push_back(t.thickness);
     if (!mesh.user_data.empty()) out.user_data.push_back(mesh.user_data[f]);
   }
+  joinEqualVertices(out);
   out.high_quality = !hasOrderOf(mesh, out, false) && hasOrderOf(mesh, out, true);
   return out;
 }

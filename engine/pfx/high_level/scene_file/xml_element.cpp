@@ -16,7 +16,7 @@ bool isSpace(char c) { return c == ' ' || c == '\t' || c == '\n' || c == '\r' ||
 // Text of a number for a message, cut when it is long.
 std::string excerpt(std::string_view word) {
   std::string out(1, '"');
-  out += word.substr(0, 40);
+  for (char c : word.substr(0, 40)) out += static_cast<unsigned char>(c) < ' ' ? ' ' : c;  // a message is one line
   out += '"';
   return out;
 }
