@@ -13,13 +13,15 @@ using samples::SceneEntry;
 
 // What a world had in it at some time of its run.
 struct Content {
-  bool several_bodies = false, pairs = false, contacts = false, joints = false, scripted = false, particles = false;
+  bool several_bodies = false, pairs = false, contacts = false, joints = false, scripted = false, particles = false, meshes = false;
   bool sleepers = false, dynamic = false;
 
   void add(const World& world) {
     const WorldCounts n = world.counts();
     several_bodies |= n.bodies > 1, pairs |= n.pairs > 0, contacts |= n.touching_pairs > 0, joints |= n.joints > 0;
     particles |= world.numParticleSystems() > 0;
+    for (const Collidable& body : world.collidables())
+      for (const Shape& shape : body.shapes()) meshes |= shape.type() == ShapeType::LargeMesh;
     for (const RigidState& s : world.states()) {
       sleepers |= s.asleep;
       dynamic |= isDynamic(s.motion_type);
@@ -38,6 +40,7 @@ bool isAllowed(std::string_view stage, const Content& c, const WorldDef& def) {
   if (stage == "store impulses" || stage == "choose solvers" || stage == "island solver") return c.contacts;
   if (stage == "key frames") return c.scripted;
   if (stage == "particles") return c.particles;
+  if (stage == "moving meshes") return c.meshes;
   if (stage == "wake" || stage == "sleep") return def.sleeping && c.dynamic;
   if (stage == "events" || stage == "approaches") return def.report_events;
   return false;  // "modified impulses": no scene here changes contacts

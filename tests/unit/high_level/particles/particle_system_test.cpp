@@ -3,9 +3,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <string_view>
 
 #include "pfx/high_level/particles/particle_builder.h"
 #include "pfx/high_level/world/world.h"
