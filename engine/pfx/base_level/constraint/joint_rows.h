@@ -43,6 +43,8 @@ struct alignas(32) JointBatch {
   Lane point_bias;         // 0 .. 1
   Lane max_point_impulse;  // N s
   Lane point_impulse[3];   // N s, on B, world axes, over the sub-step
+  Lane lever_a[3];         // m, the arms that the impulse last acted at
+  Lane lever_b[3];
 };
 
 // Numbers that are the same for every joint of a step.

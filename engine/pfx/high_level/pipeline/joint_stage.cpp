@@ -9,7 +9,7 @@ namespace pfx {
 namespace {
 
 constexpr float kMostSoftLoad = 128.0f;
-constexpr size_t kMostDirectJoints = 1000;  // of a world, before light components make do with soft rows
+constexpr size_t kMostDirectJoints = 500;  // of a world, before light components make do with soft rows
 constexpr uint8_t kStaysSoft = 30;  // steps since a contact
 
 bool isAwake(const RigidState& s) { return isDynamic(s.motion_type) && !s.asleep; }

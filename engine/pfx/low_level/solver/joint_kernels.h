@@ -12,6 +12,7 @@ struct JointKernels {
   using Fn = void (*)(JointBatch* batches, uint32_t count, JointAxisRows* rows, SolverBody* bodies,
                       const JointSolveParams& params);
   Fn warm_start;  // applies the impulses in the batches
+  Fn follow;      // turns the torques of impulses that bodies still have from the last sub-step with the levers
   Fn push;        // with position errors
   Fn relax;       // velocities alone
 };

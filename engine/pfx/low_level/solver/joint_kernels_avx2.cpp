@@ -3,7 +3,7 @@
 
 namespace pfx {
 
-const JointKernels kJointKernelsAvx2 = {PFX_LANES::warmStartJoints, PFX_LANES::pushJoints,
+const JointKernels kJointKernelsAvx2 = {PFX_LANES::warmStartJoints, PFX_LANES::followLevers, PFX_LANES::pushJoints,
                                         PFX_LANES::relaxJoints};
 
 }  // namespace pfx

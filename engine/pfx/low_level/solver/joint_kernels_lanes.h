@@ -60,6 +60,8 @@ inline void solvePoint(JointLanes& j, const JointSolveParams& params, bool with_
     wanted = wanted + (F8::set(params.softness.bias_rate) * F8::load(batch.point_bias)) * separation;
     leak = F8::set(params.softness.impulse_scale) * scale;
     scale = F8::set(params.softness.mass_scale) * scale;
+    ra.store(batch.lever_a);
+    rb.store(batch.lever_b);
   }
   const F8 zero = F8::zero(), mass = j.a.mass.inv_mass + j.b.mass.inv_mass;
   S8 k = {mass, zero, zero, mass, zero, mass};
@@ -150,6 +152,24 @@ inline void warmStartJoints(JointBatch* batches, uint32_t count, JointAxisRows* 
       applyTo(j.b, p, cross(V8::load(batches[i].arm_b), p));
       applyTo(j.a, back, cross(V8::load(batches[i].arm_a), back));
     }
+    j.store();
+  }
+}
+
+// Bodies start a sub-step with the change that the last one's impulses made (see substep.h). The force of a point goes on
+// as it was; its torque has to follow the levers, or the swing of a whip feeds itself.
+inline void followLevers(JointBatch* batches, uint32_t count, JointAxisRows*, SolverBody* bodies,
+                         const JointSolveParams&) {
+  for (uint32_t i = 0; i < count; ++i) {
+    JointBatch& batch = batches[i];
+    if (!batch.has_point) continue;
+    JointLanes j(batch, bodies);
+    const V8 start_a = V8::load(batch.arm_a), start_b = V8::load(batch.arm_b);
+    const V8 turned_a = (start_a + armShift(j.ma, start_a)) - V8::load(batch.lever_a);
+    const V8 turned_b = (start_b + armShift(j.mb, start_b)) - V8::load(batch.lever_b);
+    const V8 p = V8::load(batch.point_impulse);
+    j.b.velocity.w = j.b.velocity.w + j.b.mass.inv_inertia * cross(turned_b, p);
+    j.a.velocity.w = j.a.velocity.w - j.a.mass.inv_inertia * cross(turned_a, p);
     j.store();
   }
 }

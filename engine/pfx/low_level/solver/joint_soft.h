@@ -45,6 +45,7 @@ class SoftJoints {
   void warmStart(std::span<SolverBody> bodies, TaskManager& tasks) {
     run(kernels_->warm_start, bodies, tasks);
   }
+  void follow(std::span<SolverBody> bodies, TaskManager& tasks) { run(kernels_->follow, bodies, tasks); }
   void push(std::span<SolverBody> bodies, TaskManager& tasks) { run(kernels_->push, bodies, tasks); }
   void relax(std::span<SolverBody> bodies, TaskManager& tasks) { run(kernels_->relax, bodies, tasks); }
 

@@ -42,7 +42,7 @@ void JointStep::prepare(std::span<const RigidState> states, std::span<const uint
 }
 
 void JointStep::start(std::span<SolverBody> bodies, bool first, TaskManager& tasks) {
-  if (first && !soft_.empty()) soft_.warmStart(bodies, tasks);
+  if (!soft_.empty()) first ? soft_.warmStart(bodies, tasks) : soft_.follow(bodies, tasks);
   forComponents(direct_, tasks, [&](JointComponent& c) { c.direct.startSubstep(bodies, c.solver_index); });
 }
 
