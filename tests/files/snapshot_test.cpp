@@ -62,7 +62,7 @@ struct Heap {
 TEST(Snapshot, KeepsSleepersSoThatTheyWakeTheSameWay) {
   World world({.sleeping = true, .sleep_steps = 30});
   Heap heap(world);
-  while (world.stepCount() < 200) world.step(1.0f / 60.0f);
+  while (world.stepCount() < 270) world.step(1.0f / 60.0f);  // the hammer is 1.5 m away
   const uint32_t awake = world.counts().awake;
   ASSERT_LT(awake, 9u) << "something must sleep, or the test proves nothing";
   World other({.workers = 2});
