@@ -29,17 +29,14 @@ void forEachPair(const PfxSolveConstraintsParam& p, const PairList<Item>& list, 
 void warmStartContact(pfx::ImpulsePair bodies, PfxContactManifold& manifold) {
   for (int k = 0; k < manifold.getNumContacts(); ++k) pfx::warmStart(bodies, impulses(manifold.getContactPoint(k)));
 }
-void warmStartJoint(pfx::ImpulsePair bodies, PfxJoint& joint) {
-  for (PfxJointConstraint& c : joint.m_constraints) pfx::warmStart(bodies, impulses(c.m_constraintRow));
-}
+void warmStartJoint(pfx::ImpulsePair bodies, PfxJoint& joint) { pfx::warmStart(bodies, impulses(joint)); }
 void solveContact(pfx::ImpulsePair bodies, PfxContactManifold& manifold) {
+  const PfxFloat friction = manifold.getCompositeFriction();
+  PfxContactPoint *const first = &manifold.getContactPoint(0), *const end = first + manifold.getNumContacts();
   for (int visit = 0; visit < kContactVisits; ++visit)
-    for (int k = 0; k < manifold.getNumContacts(); ++k)
-      pfx::solveImpulses(bodies, manifold.getCompositeFriction(), impulses(manifold.getContactPoint(k)));
+    for (PfxContactPoint* p = first; p != end; ++p) pfx::solveImpulses(bodies, friction, impulses(*p));
 }
-void solveJoint(pfx::ImpulsePair bodies, PfxJoint& joint) {
-  for (PfxJointConstraint& c : joint.m_constraints) pfx::solveImpulses(bodies, impulses(c.m_constraintRow));
-}
+void solveJoint(pfx::ImpulsePair bodies, PfxJoint& joint) { pfx::solveImpulses(bodies, impulses(joint)); }
 
 void solve(const PfxSolveConstraintsParam& p, const Selection& s) {
   forEachPair(p, jointsOf(p), s.joints, warmStartJoint);

@@ -5,7 +5,7 @@
 
 #include "compat/physics_effects/native.h"
 #include "compat/physics_effects/solver.h"
-#include "pfx/low_level/solver/sequential_impulse.h"
+#include "pfx/low_level/solver/impulse_joint.h"
 
 namespace sce::PhysicsEffects {
 
@@ -13,6 +13,12 @@ constexpr uint32_t kBodyGrain = 64;  // bodies or pairs that one task takes
 
 inline pfx::ImpulsePoint& impulses(PfxContactPoint& p) { return reinterpret_cast<pfx::ImpulsePoint&>(p.m_armA); }
 inline pfx::ImpulseJointRow& impulses(PfxJointRow& row) { return reinterpret_cast<pfx::ImpulseJointRow&>(row); }
+inline pfx::ImpulseJoint impulses(PfxJoint& joint) {
+  PfxJointConstraint* c = joint.m_constraints;
+  return {{&impulses(c[0].m_constraintRow), &impulses(c[1].m_constraintRow), &impulses(c[2].m_constraintRow),
+           &impulses(c[3].m_constraintRow), &impulses(c[4].m_constraintRow), &impulses(c[5].m_constraintRow)},
+          joint.m_coupling};
+}
 inline pfx::ImpulseBody& impulses(PfxSolverBody& b) { return reinterpret_cast<pfx::ImpulseBody&>(b); }
 
 // The two bodies of a pair as the rows see them. What does not give way is replaced, so that nothing is ever written to it:
@@ -66,8 +72,7 @@ PfxInt32 check(const Param& p, const PairList<Item>& list) {
 }
 
 inline bool takesPart(const PfxConstraintPair& pair, const PfxRigidState* states) {
-  return pfxGetActive(pair) && solves(states[pfxGetRigidBodyIdA(pair)].getMotionMask(),
-                                      states[pfxGetRigidBodyIdB(pair)].getMotionMask());
+  return pfxGetActive(pair) && meetBy(kSolved, states[pfxGetRigidBodyIdA(pair)], states[pfxGetRigidBodyIdB(pair)]);
 }
 
 }  // namespace sce::PhysicsEffects
