@@ -229,10 +229,10 @@ PfxInt32 checkPairs(const PfxConstraintPair* pairs, PfxUInt32 count, PfxUInt32 n
   if (count == 0) return SCE_PFX_OK;
   if (pairs == nullptr) return SCE_PFX_ERR_INVALID_VALUE;
   if (!aligned16(pairs)) return SCE_PFX_ERR_INVALID_ALIGN;
-  for (PfxUInt32 i = 0; num_bodies > 0 && i < count; ++i)
-    if (pfxGetRigidBodyIdA(pairs[i]) >= num_bodies || pfxGetRigidBodyIdB(pairs[i]) >= num_bodies)
-      return SCE_PFX_ERR_OUT_OF_RANGE;
-  return SCE_PFX_OK;
+  PfxUInt16 highest = 0;
+  for (PfxUInt32 i = 0; i < count; ++i)
+    highest = std::max({highest, pfxGetRigidBodyIdA(pairs[i]), pfxGetRigidBodyIdB(pairs[i])});
+  return num_bodies > 0 && highest >= num_bodies ? SCE_PFX_ERR_OUT_OF_RANGE : SCE_PFX_OK;
 }
 
 void reserveMeshContacts() {

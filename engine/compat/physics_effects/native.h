@@ -49,11 +49,11 @@ inline pfx::Vec3 native(const PfxVector3& v) { return {v[0], v[1], v[2]}; }
 inline PfxVector3 compat(const pfx::Vec3& v) { return PfxVector3(v.x(), v.y(), v.z()); }
 inline pfx::Quat native(const PfxQuat& q) { return {q[3], q[0], q[1], q[2]}; }
 inline PfxQuat compat(const pfx::Quat& q) { return PfxQuat(q.x(), q.y(), q.z(), q.w()); }
-inline pfx::Mat3 native(const PfxMatrix3& m) {
-  pfx::Mat3 r;
-  r << native(m[0]), native(m[1]), native(m[2]);
-  return r;
-}
+// The columns of a matrix lie four numbers apart.
+using MatrixColumns = Eigen::Map<const pfx::Mat3, 0, Eigen::OuterStride<4>>;
+static_assert(sizeof(PfxMatrix3) == 12 * sizeof(float));
+inline MatrixColumns columns(const PfxMatrix3& m) { return MatrixColumns(reinterpret_cast<const float*>(&m)); }
+inline pfx::Mat3 native(const PfxMatrix3& m) { return columns(m); }
 
 // The shape as the narrow phase takes it. Meshes are looked up now, so that one which was made anew is seen.
 pfx::Shape native(const PfxShape& shape);

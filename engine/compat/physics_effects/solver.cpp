@@ -63,7 +63,7 @@ PfxInt32 pfxSetupSolverBodies(PfxSetupSolverBodiesParam& param, PfxTaskManager* 
       if (!pfx::isDynamic(native(state).motion_type) || state.isAsleep()) continue;
       solver.m_massInv = param.bodies[i].getMassInv();
       const pfx::Mat3 r = native(state).orientation.toRotationMatrix();
-      pfx::Mat3::Map(solver.m_inertiaInv) = r * native(param.bodies[i].getInertiaInv()) * r.transpose();
+      pfx::Mat3::Map(solver.m_inertiaInv) = r * columns(param.bodies[i].getInertiaInv()) * r.transpose();
     }
   });
   return SCE_PFX_OK;

@@ -26,24 +26,24 @@ inline pfx::ImpulseBody& impulses(PfxSolverBody& b) { return reinterpret_cast<pf
 // a copy.
 class SolverPair {
  public:
-  SolverPair(PfxSolverBody& a, PfxSolverBody& b, pfx::ImpulseBody& fixed) : pair_{seen(a, b, fixed), seen(b, a, fixed)} {}
+  SolverPair(PfxSolverBody& a, PfxSolverBody& b, pfx::ImpulseBody& fixed)
+      : a_(a.m_massInv > 0.0f ? &impulses(a) : &fixed), b_(b.m_massInv > 0.0f ? &impulses(b) : &fixed) {
+    // Two OneWay bodies form no pair, so that one copy will do.
+    if (b.m_motionType == kPfxMotionTypeOneWay) [[unlikely]] a_ = &still(*a_);
+    if (a.m_motionType == kPfxMotionTypeOneWay) [[unlikely]] b_ = &still(*b_);
+  }
   SolverPair(const SolverPair&) = delete;
-  operator pfx::ImpulsePair() const { return pair_; }
+  operator pfx::ImpulsePair() const { return {*a_, *b_}; }
 
  private:
-  pfx::ImpulseBody& seen(PfxSolverBody& body, const PfxSolverBody& partner, pfx::ImpulseBody& fixed) {
-    if (!(body.m_massInv > 0.0f)) return fixed;
-    return partner.m_motionType != kPfxMotionTypeOneWay ? impulses(body) : still(body);
-  }
-  // Two OneWay bodies form no pair, so that one copy will do.
-  pfx::ImpulseBody& still(const PfxSolverBody& body) {
+  pfx::ImpulseBody& still(const pfx::ImpulseBody& body) {
     copy_ = {};
-    std::copy_n(body.m_deltaLinearVelocity, 3, copy_.dv);
-    std::copy_n(body.m_deltaAngularVelocity, 3, copy_.dw);
+    std::copy_n(body.dv, 3, copy_.dv);
+    std::copy_n(body.dw, 3, copy_.dw);
     return copy_;
   }
   pfx::ImpulseBody copy_;
-  pfx::ImpulsePair pair_;
+  pfx::ImpulseBody *a_, *b_;
 };
 
 // A list of pairs, and the contacts or joints that they name.
