@@ -256,7 +256,7 @@ TEST(CompatWorld, HL09IslandsAtRestFallAsleepAndWakeWhenTouched) {
   w.run(400);
   for (PfxUInt32 i = 1; i <= stone; ++i) EXPECT_TRUE(w.world.getRigidState(i).isAsleep()) << i;
   w.world.removeRigidBody(1);  // from under the top
-  w.run(30);
+  w.run(90);
   EXPECT_LT(w.at(2)[1], 1.4f);
   EXPECT_TRUE(w.world.getRigidState(5).isAsleep());
   w.world.setSimulationFlag(0);

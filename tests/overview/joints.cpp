@@ -12,7 +12,7 @@ static PfxRigidBody bodies[2];
 static PfxSolverBody solverBodies[2];
 static PfxJoint joint;
 static PfxConstraintPair jointPair;
-alignas(16) static char workBuff[1024];
+alignas(16) static char workBuff[4096];
 
 static void place() {
   for (PfxUInt16 i = 0; i < 2; i++) {

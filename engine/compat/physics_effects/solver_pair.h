@@ -21,13 +21,17 @@ inline pfx::ImpulseJoint impulses(PfxJoint& joint) {
 }
 inline pfx::ImpulseBody& impulses(PfxSolverBody& b) { return reinterpret_cast<pfx::ImpulseBody&>(b); }
 
+inline pfx::ImpulseBody& givingWay(PfxSolverBody& body, pfx::ImpulseBody& fixed) {
+  return body.m_massInv > 0.0f ? impulses(body) : fixed;
+}
+
 // The two bodies of a pair as the rows see them. What does not give way is replaced, so that nothing is ever written to it:
 // a body without mass by `fixed`, which is all zeros and stays so, and the partner of a OneWay body, which does not push, by
 // a copy.
 class SolverPair {
  public:
   SolverPair(PfxSolverBody& a, PfxSolverBody& b, pfx::ImpulseBody& fixed)
-      : a_(a.m_massInv > 0.0f ? &impulses(a) : &fixed), b_(b.m_massInv > 0.0f ? &impulses(b) : &fixed) {
+      : a_(&givingWay(a, fixed)), b_(&givingWay(b, fixed)) {
     // Two OneWay bodies form no pair, so that one copy will do.
     if (b.m_motionType == kPfxMotionTypeOneWay) [[unlikely]] a_ = &still(*a_);
     if (a.m_motionType == kPfxMotionTypeOneWay) [[unlikely]] b_ = &still(*b_);
