@@ -39,9 +39,9 @@ if [ "$full" = yes ]; then
   # The engine alone. The address sanitizer has every unit test and foreign input to look at, the thread sanitizer what
   # shares work between threads.
   buildPreset asan-ubsan sanitized_tests -DVITRINE_VIEWER=OFF
-  runTests asan-ubsan -R '^(unit|fuzz|determinism)/'
+  runTests asan-ubsan -R '^(unit|fuzz|determinism|compat)/'
   buildPreset tsan sanitized_tests -DVITRINE_VIEWER=OFF
-  runTests tsan -R '^determinism/|^unit/.*(Task|World|Worker|Parallel|Thread)'
+  runTests tsan -R '^determinism/|^unit/.*(Task|World|Worker|Parallel|Thread)|^compat/.*(Task|Worker|Parallel)'
 fi
 
 say "summary after $((SECONDS / 60)) min $((SECONDS % 60)) s"

@@ -11,6 +11,7 @@
 #include "physics_effects/mesh.h"
 #include "physics_effects/ray.h"
 #include "physics_effects/rigid_body.h"
+#include "physics_effects/rigid_body_world.h"
 #include "physics_effects/serialize.h"
 #include "physics_effects/shape.h"
 #include "physics_effects/solver.h"

@@ -1,7 +1,9 @@
 // Chapter 2: convex and large meshes: creation, limits, the four kinds of storage, memory.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <cstdlib>
 #include <map>
 #include <vector>
@@ -200,12 +202,15 @@ TEST_F(CompatMesh, ABallRollsOverTheSeamOfTwoMeshes) {
   scene.bodies[id].setInertia(pfxCalcInertiaSphere(0.5f, 1.0f));
   scene.states[id].setLinearVelocity(PfxVector3(4, 0, 0));
   scene.states[id].setAngularVelocity(PfxVector3(0, 0, -8));
+  PfxFloat lowest = 1.0f, highest = 0.0f;
   for (int i = 0; i < 120; ++i) {
     scene.step();
-    EXPECT_GT(scene.states[id].getPosition()[1], 0.49f) << i;
-    // The open edge where the second mesh begins tosses a ball of 4 m/s a little.
-    EXPECT_LT(scene.states[id].getPosition()[1], 0.55f) << i;
+    lowest = std::min(lowest, scene.states[id].getPosition()[1]);
+    highest = std::max(highest, scene.states[id].getPosition()[1]);
   }
+  std::printf("from %.3f mm to %.3f mm over the ground\n", 1e3 * double(lowest - 0.5f), 1e3 * double(highest - 0.5f));
+  EXPECT_GT(lowest, 0.5f - 0.0012f);   // the slop of the solver
+  EXPECT_LT(highest, 0.5f + 0.0005f);
   EXPECT_GT(scene.states[id].getPosition()[0], 3.0f);
   EXPECT_NEAR(scene.states[id].getPosition()[1], 0.5f, 0.005f);
   pfxReleaseLargeTriMesh(mesh);

@@ -12,7 +12,7 @@ namespace {
 PfxConstraintPair pairOf(PfxUInt16 a, PfxUInt16 b) {
   PfxConstraintPair pair = {};
   pfxSetRigidBodyIdA(pair, a), pfxSetRigidBodyIdB(pair, b);
-  pfxSetMotionMaskA(pair, kPfxMotionTypeActive), pfxSetMotionMaskB(pair, kPfxMotionTypeActive);
+  pfxSetMotionMaskA(pair, PfxRigidState().getMotionMask()), pfxSetMotionMaskB(pair, PfxRigidState().getMotionMask());
   pfxSetActive(pair, true);
   return pair;
 }

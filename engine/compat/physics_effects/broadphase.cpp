@@ -3,13 +3,15 @@
 #include <algorithm>
 #include <atomic>
 #include <cmath>
+#include <utility>
 
 #include "compat/physics_effects/native.h"
 
 namespace sce::PhysicsEffects {
 namespace {
 
-constexpr uint32_t kGrain = 64;  // bodies that one task takes
+constexpr uint32_t kGrain = 64;       // bodies that one task takes
+constexpr uint32_t kPairGrain = 512;  // pairs
 
 bool finite(const PfxVector3& v) { return native(v).allFinite(); }
 
@@ -71,10 +73,7 @@ bool overlap(const PfxBroadphaseProxy& a, const PfxBroadphaseProxy& b) {
 }
 
 bool mayPair(const PfxBroadphaseProxy& a, const PfxBroadphaseProxy& b) {
-  const auto type = [](const PfxBroadphaseProxy& p) {
-    return static_cast<pfx::MotionType>(pfxGetMotionMask(p) & SCE_PFX_MOTION_MASK_TYPE);
-  };
-  return pfx::detectsCollision(type(a), type(b)) &&
+  return pfx::detectsCollision(motionTypeOf(pfxGetMotionMask(a)), motionTypeOf(pfxGetMotionMask(b))) &&
          pfx::filtersMatch(pfxGetSelf(a), pfxGetTarget(a), pfxGetSelf(b), pfxGetTarget(b));
 }
 
@@ -91,10 +90,16 @@ PfxBroadphasePair makePair(const PfxBroadphaseProxy& a, const PfxBroadphaseProxy
   return pair;
 }
 
-template <class Record>
-bool isSorted(const Record* records, PfxUInt32 count) {
-  return std::is_sorted(records, records + count, [](const Record& a, const Record& b) { return a.key() < b.key(); });
+bool isSorted(const PfxBroadphasePair* pairs, PfxUInt32 count, pfx::TaskManager* tasks) {
+  std::atomic<bool> sorted = true;
+  pfx::parallelFor(tasks, count, kPairGrain, [&](pfx::TaskRange range) {
+    for (PfxUInt32 i = std::max(range.begin, 1u); i < range.end; ++i)
+      if (pairs[i].key() < pairs[i - 1].key()) sorted.store(false, std::memory_order_relaxed);
+  });
+  return sorted;
 }
+
+PfxUInt32 blocks(PfxUInt32 count, PfxUInt32 grain) { return (count + grain - 1) / grain; }
 
 }  // namespace
 
@@ -142,6 +147,53 @@ PfxInt32 pfxUpdateBroadphaseProxy(PfxBroadphaseProxy& x, PfxBroadphaseProxy& y, 
   return code;
 }
 
+namespace {
+
+// A block of bodies, kept in the place of its first one in the work buffer.
+struct ProxyBlock {
+  PfxUInt32 count;    // of proxies
+  PfxUInt32 outside;  // bodies
+  PfxUInt32 first;    // place of its first proxy in the arrays
+};
+static_assert(sizeof(ProxyBlock) <= sizeof(PfxBroadphaseProxy));
+
+bool removes(const PfxUpdateBroadphaseProxiesParam& p) {
+  return (p.outOfWorldBehavior & SCE_PFX_OUT_OF_WORLD_BEHAVIOR_REMOVE_PROXY) != 0;
+}
+
+Bounds boundsOf(const PfxUpdateBroadphaseProxiesParam& p, PfxUInt32 i) {
+  return boundsIn(p.offsetRigidStates[i], p.offsetCollidables[i], p.worldCenter, p.worldExtent);
+}
+
+ProxyBlock countProxies(const PfxUpdateBroadphaseProxiesParam& p, pfx::TaskRange range) {
+  ProxyBlock block = {range.end - range.begin, 0, 0};
+  for (PfxUInt32 i = range.begin; i < range.end; ++i) {
+    if (!boundsOf(p, i).outside) continue;
+    leaveWorld(p.offsetRigidStates[i], p.outOfWorldBehavior);
+    ++block.outside;
+  }
+  if (removes(p)) block.count -= block.outside;
+  return block;
+}
+
+void writeProxies(const PfxUpdateBroadphaseProxiesParam& p, pfx::TaskRange range, PfxUInt32 at) {
+  PfxBroadphaseProxy* const arrays[] = {p.proxiesX, p.proxiesY, p.proxiesZ, p.proxiesXb, p.proxiesYb, p.proxiesZb};
+  for (PfxUInt32 i = range.begin; i < range.end; ++i) {
+    const Bounds bounds = boundsOf(p, i);
+    if (bounds.outside && removes(p)) continue;
+    PfxBroadphaseProxy proxy;
+    writeProxy(proxy, p.offsetRigidStates[i], bounds.box, p.worldCenter, p.worldExtent);
+    for (PfxUInt32 axis = 0; axis < 6; ++axis) {
+      if (arrays[axis] == nullptr) continue;
+      writeKey(proxy, axis);
+      arrays[axis][at] = proxy;
+    }
+    ++at;
+  }
+}
+
+}  // namespace
+
 PfxUInt32 pfxGetWorkBytesOfUpdateBroadphaseProxies(PfxUInt32 numRigidBodies, PfxUInt32) {
   return sizeof(PfxBroadphaseProxy) * std::max(numRigidBodies, 1u);
 }
@@ -159,34 +211,20 @@ PfxInt32 pfxUpdateBroadphaseProxies(PfxUpdateBroadphaseProxiesParam& param, PfxU
     if (!aligned16(a)) return SCE_PFX_ERR_INVALID_ALIGN;
   if (param.workBytes < pfxGetWorkBytesOfUpdateBroadphaseProxies(n)) return SCE_PFX_ERR_OUT_OF_BUFFER;
 
-  // When bodies outside are left out, the place of a proxy depends on those before it.
-  const bool remove = param.outOfWorldBehavior & SCE_PFX_OUT_OF_WORLD_BEHAVIOR_REMOVE_PROXY;
-  PfxUInt32 removed = 0;
-  std::atomic<PfxInt32> outside = 0;
-  pfx::parallelFor(remove ? nullptr : poolOf(taskManager), n, kGrain, [&](pfx::TaskRange range) {
-    for (PfxUInt32 i = range.begin; i < range.end; ++i) {
-      const Bounds bounds = boundsIn(param.offsetRigidStates[i], param.offsetCollidables[i], param.worldCenter, param.worldExtent);
-      if (bounds.outside) {
-        outside.fetch_add(1, std::memory_order_relaxed);
-        leaveWorld(param.offsetRigidStates[i], param.outOfWorldBehavior);
-        if (remove) {
-          ++removed;
-          continue;
-        }
-      }
-      PfxBroadphaseProxy proxy;
-      writeProxy(proxy, param.offsetRigidStates[i], bounds.box, param.worldCenter, param.worldExtent);
-      for (PfxUInt32 axis = 0; axis < 6; ++axis) {
-        if (arrays[axis] == nullptr) continue;
-        writeKey(proxy, axis);
-        arrays[axis][i - removed] = proxy;
-      }
-    }
-  });
-  const PfxUInt32 count = n - removed;
+  auto* work = static_cast<PfxBroadphaseProxy*>(param.workBuff);
+  const auto blockAt = [&](PfxUInt32 body) -> ProxyBlock& { return reinterpret_cast<ProxyBlock&>(work[body]); };
+  pfx::TaskManager* tasks = poolOf(taskManager);
+  pfx::parallelFor(tasks, n, kGrain, [&](pfx::TaskRange range) { blockAt(range.begin) = countProxies(param, range); });
+  PfxUInt32 count = 0, outside = 0;
+  for (PfxUInt32 i = 0; i < n; i += kGrain) {
+    ProxyBlock& block = blockAt(i);
+    block.first = count;
+    count += block.count, outside += block.outside;
+  }
+  pfx::parallelFor(tasks, n, kGrain, [&](pfx::TaskRange range) { writeProxies(param, range, blockAt(range.begin).first); });
   for (PfxBroadphaseProxy* a : arrays)
     if (a != nullptr) pfxParallelSort(a, count, param.workBuff, param.workBytes, taskManager);
-  result.numOutOfWorldProxies = outside;
+  result.numOutOfWorldProxies = static_cast<PfxInt32>(outside);
   result.numProxies = static_cast<PfxInt32>(count);
   return SCE_PFX_OK;
 }
@@ -231,12 +269,68 @@ PfxInt32 pfxFindPairs(PfxFindPairsParam& param, PfxFindPairsResult& result, PfxT
   return pfxParallelSort(pairs, count, param.workBuff, param.workBytes, taskManager);
 }
 
-PfxUInt32 pfxGetWorkBytesOfDecomposePairs(PfxUInt32, PfxUInt32, PfxUInt32) { return 16; }
+namespace {
+
+// A run of keys in both lists of pairs, and how many pairs of it are kept, new and gone: numbers, then places.
+struct PairBlock {
+  PfxUInt32 prev_begin, prev_end, cur_begin, cur_end;
+  PfxUInt32 kept, fresh, gone;
+};
+
+// Walks both lists in the order of the keys.
+template <class Kept, class Fresh, class Gone>
+void compare(const PfxDecomposePairsParam& lists, const PairBlock& b, Kept&& kept, Fresh&& fresh, Gone&& gone) {
+  PfxUInt32 p = b.prev_begin, c = b.cur_begin;
+  while (p < b.prev_end && c < b.cur_end) {
+    const PfxBroadphasePair &prev = lists.previousPairs[p], &cur = lists.currentPairs[c];
+    if (prev.key() == cur.key()) kept(prev, cur), ++p, ++c;
+    else if (prev.key() < cur.key()) gone(prev), ++p;
+    else fresh(cur), ++c;
+  }
+  for (; p < b.prev_end; ++p) gone(lists.previousPairs[p]);
+  for (; c < b.cur_end; ++c) fresh(lists.currentPairs[c]);
+}
+
+// Where block `index` begins in both lists: at every kPairGrain-th pair of the longer one.
+void beginOf(const PfxDecomposePairsParam& lists, PfxUInt32 index, PfxUInt32& prev, PfxUInt32& cur) {
+  const bool by_current = lists.numCurrentPairs >= lists.numPreviousPairs;
+  const PfxBroadphasePair *longer = by_current ? lists.currentPairs : lists.previousPairs,
+                          *other = by_current ? lists.previousPairs : lists.currentPairs;
+  const PfxUInt32 length = std::max(lists.numCurrentPairs, lists.numPreviousPairs), other_length = std::min(lists.numCurrentPairs, lists.numPreviousPairs);
+  const PfxUInt32 at = std::min(index * kPairGrain, length);
+  PfxUInt32 other_at = at == 0 ? 0 : other_length;
+  if (at > 0 && at < length)
+    other_at = static_cast<PfxUInt32>(std::lower_bound(other, other + other_length, longer[at].key(), [](const auto& a, PfxUInt32 key) { return a.key() < key; }) - other);
+  prev = by_current ? other_at : at, cur = by_current ? at : other_at;
+}
+
+PairBlock countBlock(const PfxDecomposePairsParam& lists, PfxUInt32 index) {
+  PairBlock b = {};
+  beginOf(lists, index, b.prev_begin, b.cur_begin);
+  beginOf(lists, index + 1, b.prev_end, b.cur_end);
+  compare(lists, b, [&](const auto&, const auto&) { ++b.kept; }, [&](const auto&) { ++b.fresh; }, [&](const auto&) { ++b.gone; });
+  return b;
+}
+
+void writeBlock(const PfxDecomposePairsParam& lists, const PairBlock& b, const PfxDecomposePairsResult& out) {
+  PfxBroadphasePair *kept = out.outKeepPairs + b.kept, *fresh = out.outNewPairs + b.fresh, *gone = out.outRemovePairs + b.gone;
+  const auto keep = [&](const PfxBroadphasePair& prev, const PfxBroadphasePair& cur) {
+    *kept = cur;
+    pfxSetContactId(*kept++, pfxGetContactId(prev));
+  };
+  compare(lists, b, keep, [&](const auto& cur) { *fresh++ = cur; }, [&](const auto& prev) { *gone++ = prev; });
+}
+
+}  // namespace
+
+PfxUInt32 pfxGetWorkBytesOfDecomposePairs(PfxUInt32 numPreviousPairs, PfxUInt32 numCurrentPairs, PfxUInt32) {
+  return static_cast<PfxUInt32>(SCE_PFX_BYTES_ALIGN16(sizeof(PairBlock) * std::max(1u, blocks(std::max(numPreviousPairs, numCurrentPairs), kPairGrain))));
+}
 PfxUInt32 pfxGetPairBytesOfDecomposePairs(PfxUInt32 numPreviousPairs, PfxUInt32 numCurrentPairs) {
   return sizeof(PfxBroadphasePair) * std::max(numPreviousPairs + numCurrentPairs, 1u);
 }
 
-PfxInt32 pfxDecomposePairs(PfxDecomposePairsParam& param, PfxDecomposePairsResult& result, PfxTaskManager*) {
+PfxInt32 pfxDecomposePairs(PfxDecomposePairsParam& param, PfxDecomposePairsResult& result, PfxTaskManager* taskManager) {
   result = {};
   const PfxUInt32 num_prev = param.numPreviousPairs, num_cur = param.numCurrentPairs;
   const PfxBroadphasePair *prev = param.previousPairs, *cur = param.currentPairs;
@@ -246,28 +340,27 @@ PfxInt32 pfxDecomposePairs(PfxDecomposePairsParam& param, PfxDecomposePairsResul
     return SCE_PFX_ERR_INVALID_ALIGN;
   if (param.workBytes < pfxGetWorkBytesOfDecomposePairs(num_prev, num_cur)) return SCE_PFX_ERR_OUT_OF_BUFFER;
   if (param.pairBytes < pfxGetPairBytesOfDecomposePairs(num_prev, num_cur)) return SCE_PFX_ERR_OUT_OF_BUFFER;
-  if (!isSorted(prev, num_prev) || !isSorted(cur, num_cur)) return SCE_PFX_ERR_INVALID_VALUE;
+  pfx::TaskManager* tasks = poolOf(taskManager);
+  if (!isSorted(prev, num_prev, tasks) || !isSorted(cur, num_cur, tasks)) return SCE_PFX_ERR_INVALID_VALUE;
 
-  // The new and the kept ones share the places of the current pairs: kept from the front, new from the back.
-  auto* out = static_cast<PfxBroadphasePair*>(param.pairBuff);
-  PfxBroadphasePair *kept = out, *fresh = out + num_cur, *removed = out + num_cur;
-  PfxUInt32 p = 0, c = 0, num_kept = 0, num_new = 0, num_removed = 0;
-  while (p < num_prev || c < num_cur) {
-    const bool take_prev = c == num_cur || (p < num_prev && prev[p].key() <= cur[c].key());
-    const bool take_cur = p == num_prev || (c < num_cur && cur[c].key() <= prev[p].key());
-    if (take_prev && take_cur) {
-      kept[num_kept] = cur[c++];
-      pfxSetContactId(kept[num_kept++], pfxGetContactId(prev[p++]));
-    } else if (take_prev) {
-      removed[num_removed++] = prev[p++];
-    } else {
-      *(fresh - ++num_new) = cur[c++];
-    }
+  auto* block = static_cast<PairBlock*>(param.workBuff);
+  const PfxUInt32 num_blocks = blocks(std::max(num_prev, num_cur), kPairGrain);
+  pfx::parallelFor(tasks, num_blocks, 1, [&](pfx::TaskRange range) {
+    for (PfxUInt32 i = range.begin; i < range.end; ++i) block[i] = countBlock(param, i);
+  });
+  PfxDecomposePairsResult r;
+  for (PfxUInt32 i = 0; i < num_blocks; ++i) {
+    r.numOutKeepPairs += std::exchange(block[i].kept, r.numOutKeepPairs);
+    r.numOutNewPairs += std::exchange(block[i].fresh, r.numOutNewPairs);
+    r.numOutRemovePairs += std::exchange(block[i].gone, r.numOutRemovePairs);
   }
-  std::reverse(fresh - num_new, fresh);
-  result.outKeepPairs = kept, result.numOutKeepPairs = num_kept;
-  result.outNewPairs = fresh - num_new, result.numOutNewPairs = num_new;
-  result.outRemovePairs = removed, result.numOutRemovePairs = num_removed;
+  r.outKeepPairs = static_cast<PfxBroadphasePair*>(param.pairBuff);
+  r.outNewPairs = r.outKeepPairs + r.numOutKeepPairs;
+  r.outRemovePairs = r.outNewPairs + r.numOutNewPairs;
+  pfx::parallelFor(tasks, num_blocks, 1, [&](pfx::TaskRange range) {
+    for (PfxUInt32 i = range.begin; i < range.end; ++i) writeBlock(param, block[i], r);
+  });
+  result = r;
   return SCE_PFX_OK;
 }
 

@@ -42,6 +42,8 @@ inline PfxUInt8 pfxGetMotionMaskB(const PfxBroadphasePair& p) { return p.get8(5)
 inline PfxBool pfxGetActive(const PfxBroadphasePair& p) { return p.get8(6) != 0; }
 inline PfxUInt32 pfxGetContactId(const PfxBroadphasePair& p) { return p.get32(2); }
 inline PfxUInt32 pfxGetConstraintId(const PfxBroadphasePair& p) { return p.get32(2); }
+inline void pfxSetNumConstraints(PfxConstraintPair& p, PfxUInt8 n) { p.set8(7, n); }
+inline PfxUInt8 pfxGetNumConstraints(const PfxConstraintPair& p) { return p.get8(7); }
 // The older names.
 inline void pfxSetObjectIdA(PfxBroadphasePair& p, PfxUInt16 id) { pfxSetRigidBodyIdA(p, id); }
 inline void pfxSetObjectIdB(PfxBroadphasePair& p, PfxUInt16 id) { pfxSetRigidBodyIdB(p, id); }
@@ -53,6 +55,12 @@ inline PfxUInt32 pfxCalcUniqueKey(PfxUInt32 a, PfxUInt32 b) { return a < b ? b <
 // Grid coordinates of the bounds along axis 0, 1, 2.
 inline PfxUInt32 pfxGetXYZMin(const PfxBroadphaseProxy& p, int axis);
 inline PfxUInt32 pfxGetXYZMax(const PfxBroadphaseProxy& p, int axis);
+inline PfxUInt32 pfxGetXMin(const PfxBroadphaseProxy& p) { return pfxGetXYZMin(p, 0); }
+inline PfxUInt32 pfxGetYMin(const PfxBroadphaseProxy& p) { return pfxGetXYZMin(p, 1); }
+inline PfxUInt32 pfxGetZMin(const PfxBroadphaseProxy& p) { return pfxGetXYZMin(p, 2); }
+inline PfxUInt32 pfxGetXMax(const PfxBroadphaseProxy& p) { return pfxGetXYZMax(p, 0); }
+inline PfxUInt32 pfxGetYMax(const PfxBroadphaseProxy& p) { return pfxGetXYZMax(p, 1); }
+inline PfxUInt32 pfxGetZMax(const PfxBroadphaseProxy& p) { return pfxGetXYZMax(p, 2); }
 inline PfxUInt16 pfxGetRigidBodyId(const PfxBroadphaseProxy& p) { return p.get16(8); }
 inline PfxUInt16 pfxGetObjectId(const PfxBroadphaseProxy& p) { return p.get16(8); }
 inline PfxUInt8 pfxGetMotionMask(const PfxBroadphaseProxy& p) { return p.get8(18); }

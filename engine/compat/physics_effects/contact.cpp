@@ -1,11 +1,13 @@
 #include "compat/physics_effects/contact.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cfloat>
 #include <vector>
 
 #include "compat/physics_effects/native.h"
 #include "pfx/base_level/collision/mesh_contact.h"
+#include "pfx/base_level/collision/mesh_seam.h"
 #include "pfx/base_level/collision/pair_table.h"
 #include "pfx/base_level/shape/collidable.h"
 
@@ -147,6 +149,69 @@ void detectPair(Detection& d, const PfxCollidable& a, const PfxCollidable& b, Sc
   }
 }
 
+constexpr PfxUInt32 kNoBody = 0xffffffffu;
+
+// The body of a pair that has a large mesh; kNoBody when none has.
+PfxUInt32 meshBodyOf(const PfxDetectCollisionParam& p, const PfxConstraintPair& pair) {
+  for (const PfxUInt16 body : {pfxGetRigidBodyIdA(pair), pfxGetRigidBodyIdB(pair)}) {
+    const PfxCollidable& c = p.offsetCollidables[body];
+    for (PfxUInt32 i = 0; i < c.getNumShapes(); ++i)
+      if (c.getShape(i).getLargeTriMesh() != nullptr && isValid(c.getShape(i))) return body;
+  }
+  return kNoBody;
+}
+PfxUInt32 partnerOf(const PfxConstraintPair& pair, PfxUInt32 body) {
+  return pfxGetRigidBodyIdA(pair) == body ? pfxGetRigidBodyIdB(pair) : pfxGetRigidBodyIdA(pair);
+}
+
+// Adds what the meshes of a body say of a normal at a point; both in the world.
+void judge(const PfxDetectCollisionParam& p, PfxUInt32 mesh_body, const pfx::SurfacePoint& at, pfx::SeamVerdict& verdict) {
+  const PfxCollidable& c = p.offsetCollidables[mesh_body];
+  for (PfxUInt32 i = 0; i < c.getNumShapes(); ++i) {
+    const PfxShape& shape = c.getShape(i);
+    if (shape.getLargeTriMesh() == nullptr || !isValid(shape)) continue;
+    const pfx::Transform to_world = poseOf(p.offsetRigidStates[mesh_body]) * native(shape).offset;
+    pfx::judge(*shape.getLargeTriMesh()->m_native, {to_world.applyInverse(at.point), to_world.orientation.conjugate() * at.normal, at.slack},
+               verdict);
+  }
+}
+
+// Whether several meshes, or a body with several shapes one of which may be a mesh, take part, so that there can be seams.
+class SeveralMeshes {
+ public:
+  void add(PfxUInt32 mesh_body, PfxUInt32 num_shapes) {
+    PfxUInt32 none = kNoBody;
+    if (num_shapes > 1 || (!first_.compare_exchange_strong(none, mesh_body) && none != mesh_body)) several_ = true;
+  }
+  bool any() const { return several_; }
+
+ private:
+  std::atomic<PfxUInt32> first_ = kNoBody;
+  std::atomic<bool> several_ = false;
+};
+
+// Takes out the points of a pair whose normal its mesh has at an edge that another mesh continues (see mesh_seam.h).
+void dropGhosts(const PfxDetectCollisionParam& p, const PfxConstraintPair& pair) {
+  PfxContactManifold& manifold = p.offsetContactManifolds[pfxGetContactId(pair)];
+  const PfxUInt32 mesh_body = meshBodyOf(p, pair);
+  if (mesh_body == kNoBody) return;
+  const PfxUInt32 body = partnerOf(pair, mesh_body);
+  const bool mesh_is_a = pfxGetRigidBodyIdA(pair) == mesh_body;
+  for (int k = manifold.getNumContacts() - 1; k >= 0; --k) {
+    const PfxContactPoint& cp = manifold.getContactPoint(k);
+    const pfx::Vec3 local = pfx::Vec3::Map(mesh_is_a ? cp.m_localPointA : cp.m_localPointB);
+    const pfx::Vec3 normal = native(cp.getNormal()) * (mesh_is_a ? -1.0f : 1.0f);
+    const pfx::SurfacePoint point{poseOf(p.offsetRigidStates[mesh_body]).apply(local), normal};
+    pfx::SeamVerdict verdict;
+    judge(p, mesh_body, point, verdict);
+    for (PfxUInt32 i = 0; !verdict.is_facet_normal && i < p.numContactPairs; ++i) {
+      const PfxUInt32 other = meshBodyOf(p, p.contactPairs[i]);
+      if (other != kNoBody && other != mesh_body && partnerOf(p.contactPairs[i], other) == body) judge(p, other, point, verdict);
+    }
+    if (verdict.isGhost()) manifold.removeContactPoint(k);
+  }
+}
+
 template <class Param>
 PfxInt32 check(const Param& p) {
   if (p.numContactPairs == 0) return SCE_PFX_OK;
@@ -164,10 +229,10 @@ PfxInt32 checkPairs(const PfxConstraintPair* pairs, PfxUInt32 count, PfxUInt32 n
   if (count == 0) return SCE_PFX_OK;
   if (pairs == nullptr) return SCE_PFX_ERR_INVALID_VALUE;
   if (!aligned16(pairs)) return SCE_PFX_ERR_INVALID_ALIGN;
-  for (PfxUInt32 i = 0; num_bodies > 0 && i < count; ++i)
-    if (pfxGetRigidBodyIdA(pairs[i]) >= num_bodies || pfxGetRigidBodyIdB(pairs[i]) >= num_bodies)
-      return SCE_PFX_ERR_OUT_OF_RANGE;
-  return SCE_PFX_OK;
+  PfxUInt16 highest = 0;
+  for (PfxUInt32 i = 0; i < count; ++i)
+    highest = std::max({highest, pfxGetRigidBodyIdA(pairs[i]), pfxGetRigidBodyIdB(pairs[i])});
+  return num_bodies > 0 && highest >= num_bodies ? SCE_PFX_ERR_OUT_OF_RANGE : SCE_PFX_OK;
 }
 
 void reserveMeshContacts() {
@@ -236,17 +301,25 @@ void PfxContactManifold::refresh(const PfxVector3& positionA, const PfxQuat& ori
 PfxInt32 pfxDetectCollision(PfxDetectCollisionParam& param, PfxTaskManager* taskManager) {
   if (const PfxInt32 error = check(param); error != SCE_PFX_OK) return error;
   if (param.numContactPairs > 0 && param.offsetCollidables == nullptr) return SCE_PFX_ERR_INVALID_VALUE;
+  SeveralMeshes meshes;
   pfx::parallelFor(poolOf(taskManager), param.numContactPairs, kPairGrain, [&](pfx::TaskRange range) {
     Scratch& scratch = scratchOfThread();
     for (uint32_t i = range.begin; i < range.end; ++i) {
       const PfxConstraintPair& pair = param.contactPairs[i];
       const PfxUInt16 a = pfxGetRigidBodyIdA(pair), b = pfxGetRigidBodyIdB(pair);
       const PfxRigidState &state_a = param.offsetRigidStates[a], &state_b = param.offsetRigidStates[b];
-      if (!pfxGetActive(pair) || !detects(state_a.getMotionMask(), state_b.getMotionMask())) continue;
+      if (!pfxGetActive(pair) || !meetBy(kDetected, state_a, state_b)) continue;
       PfxContactManifold& manifold = param.offsetContactManifolds[pfxGetContactId(pair)];
       Detection d{state_a, state_b, manifold, manifold};
       detectPair(d, param.offsetCollidables[a], param.offsetCollidables[b], scratch);
+      if (manifold.getNumContacts() == 0) continue;
+      if (const PfxUInt32 mesh = meshBodyOf(param, pair); mesh != kNoBody) meshes.add(mesh, param.offsetCollidables[mesh].getNumShapes());
     }
+  });
+  if (!meshes.any()) return SCE_PFX_OK;
+  pfx::parallelFor(poolOf(taskManager), param.numContactPairs, kPairGrain, [&](pfx::TaskRange range) {
+    for (uint32_t i = range.begin; i < range.end; ++i)
+      if (pfxGetActive(param.contactPairs[i])) dropGhosts(param, param.contactPairs[i]);
   });
   return SCE_PFX_OK;
 }

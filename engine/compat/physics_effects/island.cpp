@@ -28,10 +28,8 @@ PfxUInt32 root(PfxIslandUnit* units, PfxUInt32 i) {
 }
 
 bool connects(const PfxConstraintPair& pair) {
-  const auto dynamic = [](PfxUInt8 mask) {
-    return pfx::isDynamic(static_cast<pfx::MotionType>(mask & SCE_PFX_MOTION_MASK_TYPE));
-  };
-  return pfxGetActive(pair) && dynamic(pfxGetMotionMaskA(pair)) && dynamic(pfxGetMotionMaskB(pair));
+  return pfxGetActive(pair) && (pfxGetMotionMaskA(pair) & SCE_PFX_MOTION_MASK_DYNAMIC) != 0 &&
+         (pfxGetMotionMaskB(pair) & SCE_PFX_MOTION_MASK_DYNAMIC) != 0;
 }
 
 // Numbers the islands and chains their bodies, from the highest body down so that chains ascend.

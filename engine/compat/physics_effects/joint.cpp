@@ -60,7 +60,7 @@ pfx::Joint nativeJoint(const PfxJoint& j) {
 pfx::AxisConstraint nativeAxis(const PfxJointConstraint& c) {
   pfx::AxisConstraint axis;
   axis.lock = static_cast<pfx::JointLock>(SCE_PFX_MIN(c.m_lock, SCE_PFX_JOINT_LOCK_FIX));
-  axis.lower = c.m_movableLowerLimit, axis.upper = c.m_movableUpperLimit;
+  if (axis.lock == pfx::JointLock::Limit) axis.lower = c.m_movableLowerLimit, axis.upper = c.m_movableUpperLimit;
   axis.bias = c.m_bias, axis.weight = c.m_weight, axis.damping = c.m_damping;
   axis.max_force = c.m_maxImpulse;
   return axis;
@@ -139,6 +139,7 @@ PfxInt32 pfxUpdateJointPairs(PfxConstraintPair& pair, PfxUInt32 jointId, const P
   pfxSetMotionMaskB(pair, stateB.getMotionMask());
   pfxSetActive(pair, joint.m_active != 0);
   pfxSetConstraintId(pair, jointId);
+  pfxSetNumConstraints(pair, joint.m_numConstraints);
   pfxSetKey(pair, pfxCalcUniqueKey(joint.m_rigidBodyIdA, joint.m_rigidBodyIdB));
   return SCE_PFX_OK;
 }

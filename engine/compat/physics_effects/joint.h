@@ -5,7 +5,7 @@
 
 #define SCE_PFX_JOINT_LOCK_FREE 0   // free in the whole
 #define SCE_PFX_JOINT_LOCK_LIMIT 1  // free within the movable range
-#define SCE_PFX_JOINT_LOCK_FIX 2    // fixed
+#define SCE_PFX_JOINT_LOCK_FIX 2    // fixed where it stood when the joint was made, whatever the range
 
 namespace sce {
 namespace PhysicsEffects {
@@ -55,6 +55,7 @@ struct PfxJoint {
   PfxJointConstraint m_constraints[6];  // three translations, then twist about x and the swing about y and z
   PfxVector3 m_anchorA, m_anchorB;      // m, body frames
   PfxMatrix3 m_frameA, m_frameB;        // joint axes in the body frames
+  double m_coupling[21] = {};           // 1/kg, of the rows on each other: filled by the solver
   void* m_userData = nullptr;
 };
 

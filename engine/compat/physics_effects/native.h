@@ -1,6 +1,8 @@
 // How the records of the overview's API lie over the engine's own. Not part of the public headers.
 #pragma once
 
+#include <array>
+#include <bit>
 #include <cstddef>
 #include <cstring>
 #include <span>
@@ -47,11 +49,11 @@ inline pfx::Vec3 native(const PfxVector3& v) { return {v[0], v[1], v[2]}; }
 inline PfxVector3 compat(const pfx::Vec3& v) { return PfxVector3(v.x(), v.y(), v.z()); }
 inline pfx::Quat native(const PfxQuat& q) { return {q[3], q[0], q[1], q[2]}; }
 inline PfxQuat compat(const pfx::Quat& q) { return PfxQuat(q.x(), q.y(), q.z(), q.w()); }
-inline pfx::Mat3 native(const PfxMatrix3& m) {
-  pfx::Mat3 r;
-  r << native(m[0]), native(m[1]), native(m[2]);
-  return r;
-}
+// The columns of a matrix lie four numbers apart.
+using MatrixColumns = Eigen::Map<const pfx::Mat3, 0, Eigen::OuterStride<4>>;
+static_assert(sizeof(PfxMatrix3) == 12 * sizeof(float));
+inline MatrixColumns columns(const PfxMatrix3& m) { return MatrixColumns(reinterpret_cast<const float*>(&m)); }
+inline pfx::Mat3 native(const PfxMatrix3& m) { return columns(m); }
 
 // The shape as the narrow phase takes it. Meshes are looked up now, so that one which was made anew is seen.
 pfx::Shape native(const PfxShape& shape);
@@ -75,15 +77,25 @@ inline pfx::Aabb bodyAabb(const PfxRigidState& s, const PfxCollidable& c) {
   return pfx::transformedAabb(poseOf(s), native(c.getCenter()), native(c.getHalf()));
 }
 
-inline bool detects(PfxUInt8 mask_a, PfxUInt8 mask_b) {
-  return pfx::detectsCollision(static_cast<pfx::MotionType>(mask_a & SCE_PFX_MOTION_MASK_TYPE),
-                               static_cast<pfx::MotionType>(mask_b & SCE_PFX_MOTION_MASK_TYPE)) &&
-         !(mask_a & mask_b & SCE_PFX_MOTION_MASK_SLEEPING);
+inline pfx::MotionType motionTypeOf(PfxUInt8 mask) { return static_cast<pfx::MotionType>(std::countr_zero(mask)); }
+
+// A table over motion types: which types (bits) go with each.
+using MotionTable = std::array<PfxUInt8, kPfxMotionTypeCount>;
+template <class Fn>
+constexpr MotionTable motionTable(Fn&& goes) {
+  MotionTable table = {};
+  for (int a = 0; a < kPfxMotionTypeCount; ++a)
+    for (int b = 0; b < kPfxMotionTypeCount; ++b)
+      if (goes(static_cast<pfx::MotionType>(a), static_cast<pfx::MotionType>(b))) table[a] |= static_cast<PfxUInt8>(1 << b);
+  return table;
 }
-inline bool solves(PfxUInt8 mask_a, PfxUInt8 mask_b) {
-  return pfx::solvesConstraint(static_cast<pfx::MotionType>(mask_a & SCE_PFX_MOTION_MASK_TYPE),
-                               static_cast<pfx::MotionType>(mask_b & SCE_PFX_MOTION_MASK_TYPE)) &&
-         !(mask_a & mask_b & SCE_PFX_MOTION_MASK_SLEEPING);
+inline constexpr MotionTable kDetected = motionTable(pfx::detectsCollision);
+inline constexpr MotionTable kSolved = motionTable(pfx::solvesConstraint);
+
+// Whether two bodies may meet by a table, and are not both asleep.
+inline bool meetBy(const MotionTable& table, const PfxRigidState& a, const PfxRigidState& b) {
+  const pfx::RigidState &na = native(a), &nb = native(b);
+  return (table[static_cast<size_t>(na.motion_type)] >> static_cast<int>(nb.motion_type) & 1) != 0 && !(na.asleep && nb.asleep);
 }
 
 inline pfx::TaskManager* poolOf(const PfxTaskManager* tasks) {

@@ -15,9 +15,13 @@ enum ePfxMotionType {
   kPfxMotionTypeCount
 };
 
-// Motion type and sleep as they stand in pairs and proxies.
-#define SCE_PFX_MOTION_MASK_TYPE 0x0f
+// Motion type, as the bit of its number, and sleep, as they stand in pairs and proxies.
+#define SCE_PFX_MOTION_MASK_DYNAMIC 0x0a   // Active, OneWay: gives way
+#define SCE_PFX_MOTION_MASK_STATIC 0x95    // Fixed, Keyframe, Trigger, and whatever sleeps
+#define SCE_PFX_MOTION_MASK_SLEEP 0x0e     // Active, Keyframe, OneWay: can sleep
+#define SCE_PFX_MOTION_MASK_TYPE 0x7f
 #define SCE_PFX_MOTION_MASK_SLEEPING 0x80
+#define SCE_PFX_MOTION_MASK_CAN_SLEEP(motionType) (((1 << (motionType)) & SCE_PFX_MOTION_MASK_SLEEP) != 0)
 
 // What changes in every step. Lengths in m, velocities in m/s and rad/s in world axes. The first members lie as in the
 // engine's own record.
@@ -41,6 +45,9 @@ class PfxRigidState {
   // Other motion types are not moved.
   void movePosition(const PfxVector3& position, PfxFloat timeStep);
   void moveOrientation(const PfxQuat& orientation, PfxFloat timeStep);
+  void moveTransform(const PfxTransform3& pose, PfxFloat timeStep) {
+    movePosition(pose.getTranslation(), timeStep), moveOrientation(PfxQuat(pose.getUpper3x3()), timeStep);
+  }
 
   PfxUInt16 getRigidBodyId() const { return static_cast<PfxUInt16>(body_id_); }
   void setRigidBodyId(PfxUInt16 id) { body_id_ = id; }
@@ -54,14 +61,14 @@ class PfxRigidState {
   void setMotionType(ePfxMotionType type) { motion_type_ = static_cast<PfxUInt8>(type); }
   PfxUInt8 getMotionTypeMask() const { return static_cast<PfxUInt8>(1 << motion_type_); }
   PfxUInt8 getMotionMask() const {
-    return static_cast<PfxUInt8>(motion_type_ | (asleep_ ? SCE_PFX_MOTION_MASK_SLEEPING : 0));
+    return static_cast<PfxUInt8>(1 << motion_type_ | (asleep_ ? SCE_PFX_MOTION_MASK_SLEEPING : 0));
   }
 
   // The low level never puts a body to sleep by itself. Only Active, Keyframe and OneWay bodies that use sleep can.
   PfxUInt8 getUseSleep() const { return use_sleep_; }
   void setUseSleep(PfxUInt8 use) { use_sleep_ = use != 0; }
   bool canSleep() const {
-    return use_sleep_ != 0 && motion_type_ >= kPfxMotionTypeActive && motion_type_ <= kPfxMotionTypeOneWay;
+    return use_sleep_ != 0 && SCE_PFX_MOTION_MASK_CAN_SLEEP(motion_type_);
   }
   void sleep();
   void wakeup() { asleep_ = 0, sleep_count_ = 0; }

@@ -131,6 +131,8 @@ class PfxCollidable {
   PfxInt32 finish();
 
   PfxUInt32 getNumShapes() const { return num_shapes_; }
+  PfxUInt32 getMaxNumShapes() const { return max_shapes_; }
+  const PfxShape* getShapeArray() const { return shapes_; }  // of the application; NULL for a single shape
   const PfxShape& getShape(PfxUInt32 i) const { return shapes_ == nullptr ? own_shape_ : shapes_[shape_ids_[i]]; }
   PfxShape& getShape(PfxUInt32 i) { return shapes_ == nullptr ? own_shape_ : shapes_[shape_ids_[i]]; }
   PfxVector3 getCenter() const { return pfxReadVector3(center_); }

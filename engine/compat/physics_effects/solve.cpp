@@ -11,43 +11,56 @@ namespace {
 // of boxes swaying that stand with two.
 constexpr int kContactVisits = 2;
 
-// Indices of the pairs to solve, in order.
+// A pair to solve, looked up once for all iterations.
+template <class Item>
+struct Visit {
+  PfxSolverBody *a, *b;
+  Item* item;
+  bool one_way;  // one of the bodies is OneWay
+};
+
+// The pairs to solve, in order.
 struct Selection {
-  std::span<const PfxUInt32> contacts, joints;
+  std::span<const Visit<PfxContactManifold>> contacts;
+  std::span<const Visit<PfxJoint>> joints;
 };
 
 template <class Item, class Fn>
-void forEachPair(const PfxSolveConstraintsParam& p, const PairList<Item>& list, std::span<const PfxUInt32> chosen, Fn&& fn) {
+void forEachPair(std::span<const Visit<Item>> chosen, Fn&& fn) {
   pfx::ImpulseBody fixed = {};
-  for (const PfxUInt32 i : chosen) {
-    const PfxConstraintPair& pair = list.pairs[i];
-    const SolverPair bodies(p.offsetSolverBodies[pfxGetRigidBodyIdA(pair)], p.offsetSolverBodies[pfxGetRigidBodyIdB(pair)], fixed);
-    fn(bodies, list.items[pfxGetContactId(pair)]);
+  for (const Visit<Item>& v : chosen) {
+    if (v.one_way) fn(SolverPair(*v.a, *v.b, fixed), *v.item);
+    else fn(pfx::ImpulsePair{givingWay(*v.a, fixed), givingWay(*v.b, fixed)}, *v.item);
   }
 }
 
 void warmStartContact(pfx::ImpulsePair bodies, PfxContactManifold& manifold) {
   for (int k = 0; k < manifold.getNumContacts(); ++k) pfx::warmStart(bodies, impulses(manifold.getContactPoint(k)));
 }
-void warmStartJoint(pfx::ImpulsePair bodies, PfxJoint& joint) {
-  for (PfxJointConstraint& c : joint.m_constraints) pfx::warmStart(bodies, impulses(c.m_constraintRow));
-}
+void warmStartJoint(pfx::ImpulsePair bodies, PfxJoint& joint) { pfx::warmStart(bodies, impulses(joint)); }
 void solveContact(pfx::ImpulsePair bodies, PfxContactManifold& manifold) {
+  const PfxFloat friction = manifold.getCompositeFriction();
+  PfxContactPoint *const first = &manifold.getContactPoint(0), *const end = first + manifold.getNumContacts();
   for (int visit = 0; visit < kContactVisits; ++visit)
-    for (int k = 0; k < manifold.getNumContacts(); ++k)
-      pfx::solveImpulses(bodies, manifold.getCompositeFriction(), impulses(manifold.getContactPoint(k)));
+    for (PfxContactPoint* p = first; p != end; ++p) pfx::solveImpulses(bodies, friction, impulses(*p));
 }
-void solveJoint(pfx::ImpulsePair bodies, PfxJoint& joint) {
-  for (PfxJointConstraint& c : joint.m_constraints) pfx::solveImpulses(bodies, impulses(c.m_constraintRow));
-}
+void solveJoint(pfx::ImpulsePair bodies, PfxJoint& joint) { pfx::solveImpulses(bodies, impulses(joint)); }
 
 void solve(const PfxSolveConstraintsParam& p, const Selection& s) {
-  forEachPair(p, jointsOf(p), s.joints, warmStartJoint);
-  forEachPair(p, contactsOf(p), s.contacts, warmStartContact);
+  forEachPair(s.joints, warmStartJoint);
+  forEachPair(s.contacts, warmStartContact);
   for (PfxUInt32 i = 0; i < p.iteration; ++i) {
-    forEachPair(p, jointsOf(p), s.joints, solveJoint);
-    forEachPair(p, contactsOf(p), s.contacts, solveContact);
+    forEachPair(s.joints, solveJoint);
+    forEachPair(s.contacts, solveContact);
   }
+}
+
+template <class Item>
+Visit<Item> visitOf(const PfxSolveConstraintsParam& p, const PairList<Item>& list, PfxUInt32 i) {
+  const PfxConstraintPair& pair = list.pairs[i];
+  PfxSolverBody &a = p.offsetSolverBodies[pfxGetRigidBodyIdA(pair)], &b = p.offsetSolverBodies[pfxGetRigidBodyIdB(pair)];
+  return {&a, &b, &list.items[pfxGetContactId(pair)],
+          a.m_motionType == kPfxMotionTypeOneWay || b.m_motionType == kPfxMotionTypeOneWay};
 }
 
 // The pairs that take part, in groups that share no body which gives way. Groups can be solved side by side, and each pair
@@ -55,12 +68,15 @@ void solve(const PfxSolveConstraintsParam& p, const Selection& s) {
 class Groups {
  public:
   static PfxUInt32 bytes(PfxUInt32 bodies, PfxUInt32 contacts, PfxUInt32 joints) {
-    return SCE_PFX_BYTES_ALIGN16(static_cast<PfxUInt32>(sizeof(PfxUInt32)) * (3 * (bodies + 1) + contacts + joints));
+    return SCE_PFX_BYTES_ALIGN16(static_cast<PfxUInt32>(sizeof(Visit<PfxContactManifold>) * contacts + sizeof(Visit<PfxJoint>) * joints +
+                                                        sizeof(PfxUInt32) * 3 * (bodies + 1)));
   }
 
   Groups(const PfxSolveConstraintsParam& p)
-      : num_bodies_(p.numRigidBodies), parent_(static_cast<PfxUInt32*>(p.workBuff)), first_contact_(parent_ + num_bodies_ + 1),
-        first_joint_(first_contact_ + num_bodies_ + 1), contacts_(first_joint_ + num_bodies_ + 1), joints_(contacts_ + p.numContactPairs) {}
+      : num_bodies_(p.numRigidBodies), contacts_(static_cast<Visit<PfxContactManifold>*>(p.workBuff)),
+        joints_(reinterpret_cast<Visit<PfxJoint>*>(contacts_ + p.numContactPairs)),
+        parent_(reinterpret_cast<PfxUInt32*>(joints_ + p.numJointPairs)), first_contact_(parent_ + num_bodies_ + 1),
+        first_joint_(first_contact_ + num_bodies_ + 1) {}
 
   // All pairs in one group.
   Selection all(const PfxSolveConstraintsParam& p) {
@@ -93,10 +109,10 @@ class Groups {
   }
 
   template <class Item>
-  static std::span<const PfxUInt32> choose(const PfxSolveConstraintsParam& p, const PairList<Item>& list, PfxUInt32* out) {
+  static std::span<const Visit<Item>> choose(const PfxSolveConstraintsParam& p, const PairList<Item>& list, Visit<Item>* out) {
     PfxUInt32 n = 0;
     for (PfxUInt32 i = 0; i < list.count; ++i)
-      if (takesPart(list.pairs[i], p.offsetRigidStates)) out[n++] = i;
+      if (takesPart(list.pairs[i], p.offsetRigidStates)) out[n++] = visitOf(p, list, i);
     return {out, n};
   }
   template <class Item>
@@ -110,7 +126,7 @@ class Groups {
   }
   // Counting sort by group; the order within a group stays.
   template <class Item>
-  void distribute(const PfxSolveConstraintsParam& p, const PairList<Item>& list, PfxUInt32* first, PfxUInt32* out) {
+  void distribute(const PfxSolveConstraintsParam& p, const PairList<Item>& list, PfxUInt32* first, Visit<Item>* out) {
     std::fill_n(first, num_bodies_ + 1, 0u);
     const auto each = [&](auto&& fn) {
       for (PfxUInt32 i = 0; i < list.count; ++i)
@@ -118,13 +134,15 @@ class Groups {
     };
     each([&](PfxUInt32 group, PfxUInt32) { ++first[group + 1]; });
     for (PfxUInt32 g = 0; g < num_bodies_; ++g) first[g + 1] += first[g];
-    each([&](PfxUInt32 group, PfxUInt32 i) { out[first[group]++] = i; });
+    each([&](PfxUInt32 group, PfxUInt32 i) { out[first[group]++] = visitOf(p, list, i); });
     for (PfxUInt32 g = num_bodies_; g > 0; --g) first[g] = first[g - 1];  // each had moved on to the start of the next
     first[0] = 0;
   }
 
   PfxUInt32 num_bodies_;
-  PfxUInt32 *parent_, *first_contact_, *first_joint_, *contacts_, *joints_;
+  Visit<PfxContactManifold>* contacts_;
+  Visit<PfxJoint>* joints_;
+  PfxUInt32 *parent_, *first_contact_, *first_joint_;
 };
 
 void addChanges(const PfxSolveConstraintsParam& p, PfxUInt32 i) {

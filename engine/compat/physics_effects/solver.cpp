@@ -1,6 +1,7 @@
 #include "compat/physics_effects/solver.h"
 
 #include <cmath>
+#include <type_traits>
 
 #include "pfx/base_level/rigid_body/rotation_update.h"
 #include "compat/physics_effects/solver_pair.h"
@@ -10,6 +11,7 @@ namespace {
 
 static_assert(sizeof(PfxConstraintRow) == sizeof(pfx::ImpulseRow));
 static_assert(sizeof(PfxJointRow) == sizeof(pfx::ImpulseJointRow));
+static_assert(std::extent_v<decltype(PfxJoint::m_coupling)> == pfx::kNumImpulseCouplings);
 static_assert(offsetof(PfxContactPoint, m_constraintRow) - offsetof(PfxContactPoint, m_armA) == offsetof(pfx::ImpulsePoint, rows));
 static_assert(offsetof(PfxSolverBody, m_inertiaInv) == offsetof(pfx::ImpulseBody, inv_inertia));
 
@@ -17,15 +19,18 @@ struct Surface {
   PfxFloat restitution, separate_bias, time_step;
 };
 
-void setupPoint(PfxContactPoint& cp, const PfxRigidState& a, const PfxRigidState& b, const Surface& s,
-                pfx::ImpulsePair pair) {
-  const PfxVector3 arm_a = rotate(a.getOrientation(), pfxReadVector3(cp.m_localPointA));
-  const PfxVector3 arm_b = rotate(b.getOrientation(), pfxReadVector3(cp.m_localPointB));
-  const PfxVector3 velocity = a.getLinearVelocity() + cross(a.getAngularVelocity(), arm_a) - b.getLinearVelocity() -
-                              cross(b.getAngularVelocity(), arm_b);
-  pfx::setupImpulsePoint({native(arm_a), native(arm_b), native(velocity), native(cp.getNormal()), cp.m_distance,
-                          s.restitution, s.separate_bias, s.time_step},
-                         pair, impulses(cp));
+void setupPoints(PfxContactManifold& manifold, const pfx::RigidState& a, const pfx::RigidState& b, const Surface& s,
+                 pfx::ImpulsePair pair) {
+  const pfx::Mat3 turn_a = a.orientation.toRotationMatrix(), turn_b = b.orientation.toRotationMatrix();
+  const pfx::Vec3 linear = a.linear_velocity - b.linear_velocity;
+  for (int k = 0; k < manifold.getNumContacts(); ++k) {
+    PfxContactPoint& cp = manifold.getContactPoint(k);
+    const pfx::Vec3 arm_a = turn_a * pfx::Vec3::Map(cp.m_localPointA), arm_b = turn_b * pfx::Vec3::Map(cp.m_localPointB);
+    const pfx::Vec3 velocity = linear + a.angular_velocity.cross(arm_a) - b.angular_velocity.cross(arm_b);
+    pfx::setupImpulsePoint({arm_a, arm_b, velocity, pfx::Vec3::Map(cp.m_constraintRow[0].m_normal), cp.m_distance,
+                            s.restitution, s.separate_bias, s.time_step},
+                           pair, impulses(cp));
+  }
 }
 
 void setupJoint(PfxJoint& joint, const PfxRigidState& a, const PfxRigidState& b, PfxFloat time_step, pfx::ImpulsePair pair) {
@@ -41,6 +46,7 @@ void setupJoint(PfxJoint& joint, const PfxRigidState& a, const PfxRigidState& b,
                                time_step, c.m_warmStarting != 0},
                               pair, impulses(c.m_constraintRow));
   }
+  pfx::coupleImpulseRows(pair, impulses(joint));
 }
 
 }  // namespace
@@ -56,9 +62,8 @@ PfxInt32 pfxSetupSolverBodies(PfxSetupSolverBodiesParam& param, PfxTaskManager* 
       pfxStoreQuat(state.getOrientation(), solver.m_orientation);
       if (!pfx::isDynamic(native(state).motion_type) || state.isAsleep()) continue;
       solver.m_massInv = param.bodies[i].getMassInv();
-      const PfxMatrix3 r(state.getOrientation());
-      const PfxMatrix3 inertia = r * param.bodies[i].getInertiaInv() * transpose(r);
-      for (int c = 0; c < 3; ++c) pfxStoreVector3(inertia[c], solver.m_inertiaInv + 3 * c);
+      const pfx::Mat3 r = native(state).orientation.toRotationMatrix();
+      pfx::Mat3::Map(solver.m_inertiaInv) = r * columns(param.bodies[i].getInertiaInv()) * r.transpose();
     }
   });
   return SCE_PFX_OK;
@@ -79,8 +84,7 @@ PfxInt32 pfxSetupContactConstraints(PfxSetupContactConstraintsParam& p, PfxTaskM
       manifold.setCompositeFriction(std::sqrt(body_a.getFriction() * body_b.getFriction()));
       const Surface surface{0.5f * (body_a.getRestitution() + body_b.getRestitution()), p.separateBias, p.timeStep};
       const SolverPair bodies(p.offsetSolverBodies[a], p.offsetSolverBodies[b], fixed);
-      for (int k = 0; k < manifold.getNumContacts(); ++k)
-        setupPoint(manifold.getContactPoint(k), p.offsetRigidStates[a], p.offsetRigidStates[b], surface, bodies);
+      setupPoints(manifold, native(p.offsetRigidStates[a]), native(p.offsetRigidStates[b]), surface, bodies);
     }
   });
   return SCE_PFX_OK;

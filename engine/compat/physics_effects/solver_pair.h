@@ -5,7 +5,7 @@
 
 #include "compat/physics_effects/native.h"
 #include "compat/physics_effects/solver.h"
-#include "pfx/low_level/solver/sequential_impulse.h"
+#include "pfx/low_level/solver/impulse_joint.h"
 
 namespace sce::PhysicsEffects {
 
@@ -13,31 +13,41 @@ constexpr uint32_t kBodyGrain = 64;  // bodies or pairs that one task takes
 
 inline pfx::ImpulsePoint& impulses(PfxContactPoint& p) { return reinterpret_cast<pfx::ImpulsePoint&>(p.m_armA); }
 inline pfx::ImpulseJointRow& impulses(PfxJointRow& row) { return reinterpret_cast<pfx::ImpulseJointRow&>(row); }
+inline pfx::ImpulseJoint impulses(PfxJoint& joint) {
+  PfxJointConstraint* c = joint.m_constraints;
+  return {{&impulses(c[0].m_constraintRow), &impulses(c[1].m_constraintRow), &impulses(c[2].m_constraintRow),
+           &impulses(c[3].m_constraintRow), &impulses(c[4].m_constraintRow), &impulses(c[5].m_constraintRow)},
+          joint.m_coupling};
+}
 inline pfx::ImpulseBody& impulses(PfxSolverBody& b) { return reinterpret_cast<pfx::ImpulseBody&>(b); }
+
+inline pfx::ImpulseBody& givingWay(PfxSolverBody& body, pfx::ImpulseBody& fixed) {
+  return body.m_massInv > 0.0f ? impulses(body) : fixed;
+}
 
 // The two bodies of a pair as the rows see them. What does not give way is replaced, so that nothing is ever written to it:
 // a body without mass by `fixed`, which is all zeros and stays so, and the partner of a OneWay body, which does not push, by
 // a copy.
 class SolverPair {
  public:
-  SolverPair(PfxSolverBody& a, PfxSolverBody& b, pfx::ImpulseBody& fixed) : pair_{seen(a, b, fixed), seen(b, a, fixed)} {}
+  SolverPair(PfxSolverBody& a, PfxSolverBody& b, pfx::ImpulseBody& fixed)
+      : a_(&givingWay(a, fixed)), b_(&givingWay(b, fixed)) {
+    // Two OneWay bodies form no pair, so that one copy will do.
+    if (b.m_motionType == kPfxMotionTypeOneWay) [[unlikely]] a_ = &still(*a_);
+    if (a.m_motionType == kPfxMotionTypeOneWay) [[unlikely]] b_ = &still(*b_);
+  }
   SolverPair(const SolverPair&) = delete;
-  operator pfx::ImpulsePair() const { return pair_; }
+  operator pfx::ImpulsePair() const { return {*a_, *b_}; }
 
  private:
-  pfx::ImpulseBody& seen(PfxSolverBody& body, const PfxSolverBody& partner, pfx::ImpulseBody& fixed) {
-    if (!(body.m_massInv > 0.0f)) return fixed;
-    return partner.m_motionType != kPfxMotionTypeOneWay ? impulses(body) : still(body);
-  }
-  // Two OneWay bodies form no pair, so that one copy will do.
-  pfx::ImpulseBody& still(const PfxSolverBody& body) {
+  pfx::ImpulseBody& still(const pfx::ImpulseBody& body) {
     copy_ = {};
-    std::copy_n(body.m_deltaLinearVelocity, 3, copy_.dv);
-    std::copy_n(body.m_deltaAngularVelocity, 3, copy_.dw);
+    std::copy_n(body.dv, 3, copy_.dv);
+    std::copy_n(body.dw, 3, copy_.dw);
     return copy_;
   }
   pfx::ImpulseBody copy_;
-  pfx::ImpulsePair pair_;
+  pfx::ImpulseBody *a_, *b_;
 };
 
 // A list of pairs, and the contacts or joints that they name.
@@ -66,8 +76,7 @@ PfxInt32 check(const Param& p, const PairList<Item>& list) {
 }
 
 inline bool takesPart(const PfxConstraintPair& pair, const PfxRigidState* states) {
-  return pfxGetActive(pair) && solves(states[pfxGetRigidBodyIdA(pair)].getMotionMask(),
-                                      states[pfxGetRigidBodyIdB(pair)].getMotionMask());
+  return pfxGetActive(pair) && meetBy(kSolved, states[pfxGetRigidBodyIdA(pair)], states[pfxGetRigidBodyIdB(pair)]);
 }
 
 }  // namespace sce::PhysicsEffects

@@ -1,13 +1,11 @@
 // Warm-started sequential impulses on velocities: the plain way of solving contacts and joints, one pair after the other.
+// Joints are in impulse_joint.h.
 //
 // Rows are set up from the velocities at the start of the step; the iterations gather changes of velocity in the bodies.
 // Position errors enter as a velocity that takes back a share of them (Baumgarte). Contacts have a circular friction
 // cone. Source: E. Catto, Iterative Dynamics with Temporal Coherence, GDC 2005.
 #pragma once
 
-#include <span>
-
-#include "pfx/base_level/joint/joint_coordinates.h"
 #include "pfx/base_level/math/vector.h"
 
 namespace pfx {
@@ -36,16 +34,6 @@ struct ImpulsePoint {
   ImpulseRow rows[3];  // normal, two tangents
 };
 
-// A row of a joint.
-struct ImpulseJointRow {
-  float jacobian[12];  // (vA, wA, vB, wB)
-  float rhs;
-  float inv_diag;
-  float lower, upper;
-  float impulse;
-  float weight;        // scales each change of the impulse
-};
-
 // Two bodies that act on each other; one that a OneWay body meets is given as a copy without inverse mass.
 struct ImpulsePair {
   ImpulseBody& a;
@@ -65,23 +53,10 @@ struct ImpulseContactInput {
 // Sets up a point; the impulses in it are kept as the start, projected on the new tangents.
 void setupImpulsePoint(const ImpulseContactInput& input, ImpulsePair pair, ImpulsePoint& point);
 
-struct ImpulseJointInput {
-  const AxisConstraint& axis;  // lock, range, bias, damping, weight; max_force is an impulse in N s here
-  double value;                // of the axis, m or rad
-  const double* jacobian_a;    // (6)
-  const double* jacobian_b;    // (6)
-  float rate;                  // of the value at the start of the step, m/s or rad/s
-  float time_step;             // s
-  bool warm_start;
-};
-void setupImpulseJointRow(const ImpulseJointInput& input, ImpulsePair pair, ImpulseJointRow& row);
-
 // Applies the impulses gathered in the step before.
 void warmStart(ImpulsePair pair, const ImpulsePoint& point);
-void warmStart(ImpulsePair pair, const ImpulseJointRow& row);
 
 // One iteration.
 void solveImpulses(ImpulsePair pair, float friction, ImpulsePoint& point);
-void solveImpulses(ImpulsePair pair, ImpulseJointRow& row);
 
 }  // namespace pfx

@@ -1,4 +1,4 @@
-// Sequential impulses against closed forms: one contact point, one row of a joint.
+// Sequential impulses against closed forms: one contact point.
 #include "pfx/low_level/solver/sequential_impulse.h"
 
 #include <gtest/gtest.h>
@@ -99,46 +99,6 @@ TEST(SequentialImpulse, TwoBodiesShareMomentum) {
   for (int i = 0; i < 3; ++i) solveImpulses(pair, 0.6f, point);
   EXPECT_NEAR(a.dv[0] + 3.0f * b.dv[0], 0.0f, 1e-6f);
   EXPECT_NEAR(-2.0f + a.dv[0] - b.dv[0], 0.0f, 1e-6f);
-}
-
-// A row that moves body B along x, at a value of `value` and a rate of `rate`.
-struct SlidingAxis {
-  ImpulseBody a = {}, b = massive(2.0f, 1.0f);
-  ImpulsePair pair{a, b};
-  AxisConstraint axis;
-  ImpulseJointRow row = {};
-
-  float impulse(double value, float rate) {
-    const double jacobian_a[6] = {-1, 0, 0, 0, 0, 0}, jacobian_b[6] = {1, 0, 0, 0, 0, 0};
-    row = {}, b = massive(2.0f, 1.0f);
-    setupImpulseJointRow({axis, value, jacobian_a, jacobian_b, rate, 0.01f, false}, pair, row);
-    solveImpulses(pair, row);
-    return row.impulse;
-  }
-};
-
-TEST(SequentialImpulse, AJointRowIsWeightTimesPositionAndVelocityError) {
-  SlidingAxis s;
-  s.axis.lock = JointLock::Fixed;
-  for (const float bias : {0.0f, 0.2f, 1.0f})
-    for (const float weight : {0.0f, 0.5f, 1.0f}) {
-      s.axis.bias = bias, s.axis.weight = weight;
-      EXPECT_NEAR(s.impulse(0.03, 0.4f), weight * 2.0f * (-bias * 0.03f / 0.01f - 0.4f), 1e-5f) << bias << " " << weight;
-    }
-  s.axis.bias = 1.0f, s.axis.weight = 1.0f, s.axis.max_force = 0.5f;
-  EXPECT_EQ(s.impulse(1.0, 0.0f), -0.5f);
-}
-
-TEST(SequentialImpulse, ALimitPullsBackFromOutsideAndLeavesAloneInside) {
-  SlidingAxis s;
-  s.axis.lock = JointLock::Limit;
-  s.axis.lower = -1.0f, s.axis.upper = 1.0f, s.axis.bias = 0.2f;
-  EXPECT_EQ(s.impulse(0.5, 3.0f), 0.0f);
-  EXPECT_NEAR(s.impulse(1.05, 0.4f), 2.0f * (-0.2f * 0.05f / 0.01f - 0.4f), 1e-5f);
-  EXPECT_EQ(s.impulse(1.05, -5.0f), 0.0f);  // on its way back already
-  EXPECT_NEAR(s.impulse(0.99, 3.0f), 2.0f * (1.0f - 3.0f), 1e-4f);  // may come as far as the limit within the step
-  s.axis.damping = 0.25f;
-  EXPECT_NEAR(s.impulse(0.0, 3.0f), -0.25f * 2.0f * 3.0f, 1e-5f);
 }
 
 }  // namespace
