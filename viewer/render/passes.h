@@ -45,7 +45,7 @@ class SolidPass {
  private:
   void useShadow(GLuint shadow_map) const;
   const Gl* gl_;
-  Program plain_, shiny_, floor_, plain_round_, shiny_round_;
+  Program depth_, plain_, shiny_, floor_, plain_round_, shiny_round_;
 };
 
 // The sky where nothing was drawn.
