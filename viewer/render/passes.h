@@ -136,6 +136,7 @@ class LabelPass {
     GLuint depth;
     int width, height;  // px
     float scale;        // of the text
+    float covered_right;  // px
   };
   void draw(const DrawList& list, const Input& input);
 
