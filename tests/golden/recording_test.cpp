@@ -36,7 +36,8 @@ std::vector<uint8_t> recordFall(int steps) {
                           .parameters = {2.5f},
                           .inputs = {{1, ThrowBall{pfx::Vec3(1, 2, 3), pfx::Vec3(4, 5, 6), 0.5f}},
                                      {1, Pull{2, pfx::Vec3(1, 0, 0), pfx::Vec3(0, 9, 0)}},
-                                     {4, samples::Controls{.right = 1.0f, .heading = 2.0f, .jump = true}}}});
+                                     {4, samples::Controls{.right = 1.0f, .heading = 2.0f, .jump = true}},
+                                     {5, pfx::SolverSettings{9, pfx::JointSolver::Soft, pfx::ContactSolver::Newton}}}});
   for (int i = 0; i <= steps; ++i) {
     run.stepTo(uint64_t(i));
     writer.add(captureFrame(run));
@@ -66,7 +67,7 @@ TEST(Recording, InputsAndParametersComeBack) {
   const Recording recording(recordFall(2), "fall");
   const RecordingHead& head = recording.head();
   EXPECT_EQ(head.parameters, std::vector<float>{2.5f});
-  ASSERT_EQ(head.inputs.size(), 3u);
+  ASSERT_EQ(head.inputs.size(), 4u);
   EXPECT_EQ(std::get<ThrowBall>(head.inputs[0].what).velocity, pfx::Vec3(4, 5, 6));
   EXPECT_EQ(std::get<Pull>(head.inputs[1].what).target, pfx::Vec3(0, 9, 0));
   EXPECT_EQ(std::get<Pull>(head.inputs[1].what).body, 2u);
@@ -74,6 +75,8 @@ TEST(Recording, InputsAndParametersComeBack) {
   const auto& steered = std::get<samples::Controls>(head.inputs[2].what);
   EXPECT_EQ(steered.heading, 2.0f);
   EXPECT_TRUE(steered.jump && !steered.run && !steered.crouch);
+  EXPECT_EQ(std::get<pfx::SolverSettings>(head.inputs[3].what),
+            (pfx::SolverSettings{9, pfx::JointSolver::Soft, pfx::ContactSolver::Newton}));
 }
 
 TEST(Recording, AnotherNumberOfBodiesIsAnError) {

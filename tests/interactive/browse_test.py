@@ -4,6 +4,7 @@ The title of the window tells scene, step and pause, so that what a gesture did 
 pictures are compared only to see that something changed. Usage: browse_test.py PROGRAM
 """
 
+import json
 import os
 import pathlib
 import re
@@ -16,6 +17,12 @@ import unittest
 
 PROGRAM = ""
 PATIENCE = 90  # s, until a change must have been seen; the machine may be busy
+
+
+# Where the check boxes of the overlays are in a window of 1280 x 800 px: groups of two columns under a heading each.
+OVERLAY_GROUPS = (6, 6, 3, 3, 5, 4, 4)
+OVERLAY_TAB_TOP, GROUP_HEIGHT, ROW_HEIGHT = 52, 24, 25
+CHECK_BOXES = (969, 1120)
 
 
 class Display:
@@ -205,30 +212,44 @@ class BrowserTest(unittest.TestCase):
         self.click(820, 620)
         self.wait(lambda: self.selection() and self.selection()[0] != first)
 
-    def test_every_overlay_changes_the_picture_and_can_be_taken_back(self):
-        """The check boxes of the tab that shows them all, one by one and then together."""
+    def quit_and_read_settings(self):
+        self.key("ctrl+q")
+        self.assertEqual(self.browser.wait(PATIENCE), 0)
+        return json.loads((self.folder / "vitrine" / "browse.json").read_text())
+
+    def click_every_overlay(self):
+        """Clicks the check boxes of the tab that shows them all; returns how often the picture changed."""
+        last, changes = self.still_picture(), 0
+        y = OVERLAY_TAB_TOP
+        for count in OVERLAY_GROUPS:
+            y += GROUP_HEIGHT
+            for i in range(count):
+                x = CHECK_BOXES[i % 2]
+                self.xdo("mousemove", str(x), str(y), "sleep", "0.15", "mousedown", "1", "sleep", "0.15", "mouseup", "1",
+                         "sleep", "0.3", "mousemove", "1100", "790", "sleep", "0.3")
+                now = self.picture()
+                changes += now != last
+                last = now
+                y += ROW_HEIGHT if i % 2 == 1 or i + 1 == count else 0
+        return changes
+
+    def test_every_overlay_can_be_shown_and_taken_back(self):
+        unknown = subprocess.run([PROGRAM, "render", "2_stable/landscape", "--overlay", "nonsense"], capture_output=True,
+                                 text=True).stderr
+        names = set(unknown.strip().split("known: ")[-1].split(", "))
+        self.assertEqual(len(names), sum(OVERLAY_GROUPS), unknown)
         self.open_scene("2_stable/landscape")
         self.wait(lambda: self.step() > 200)
         self.pause()
         self.click(1160, 26)
-        time.sleep(1)
-        last, changes = self.still_picture(), 0
-        for y in range(72, 530, 12):
-            for x in (1003, 1121):
-                self.xdo("mousemove", str(x), str(y))
-                time.sleep(0.15)
-                self.xdo("mousedown", "1")
-                time.sleep(0.15)
-                self.xdo("mouseup", "1")
-                time.sleep(0.4)
-                self.xdo("mousemove", "1100", "790")
-                time.sleep(0.3)
-                now = self.picture()
-                changes += now != last
-                last = now
-        self.assertIsNone(self.browser.poll(), "the browser ended")
-        # What does not move has no velocity, and this scene has no joints.
-        self.assertGreater(changes, 15)
+        # What does not move has no velocity, and this scene has neither joints nor particles.
+        self.assertGreater(self.click_every_overlay(), 15)
+        self.assertEqual(set(self.quit_and_read_settings()["overlays"].split(",")), names)
+        self.start("2_stable/landscape")
+        self.pause()
+        self.click(1160, 26)
+        self.click_every_overlay()
+        self.assertEqual(self.quit_and_read_settings()["overlays"], "none")
 
     def test_stepping_back_over_a_throw_takes_it_back(self):
         self.pause()

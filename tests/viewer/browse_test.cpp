@@ -100,6 +100,30 @@ class SessionTest : public testing::Test {
   Session session;
 };
 
+TEST_F(SessionTest, SubStepsChangeWhileItRunsAndSteppingBackKnowsIt) {
+  session.stepForward(10);
+  const uint64_t before = session.world().stateHash();
+  pfx::SolverSettings finer = session.world().solver();
+  finer.substeps *= 2;
+  session.give(finer);
+  EXPECT_EQ(session.world().stateHash(), before) << "the scene was not built again";
+  session.stepForward(140);
+  const uint64_t at_150 = session.world().stateHash();
+  session.seek(5);
+  EXPECT_EQ(session.world().solver().substeps, finer.substeps / 2);
+  session.seek(150);
+  session.seek(100);
+  EXPECT_EQ(session.world().solver().substeps, finer.substeps);
+  session.stepForward(50);
+  EXPECT_EQ(session.world().stateHash(), at_150);
+
+  Session unchanged;
+  const std::vector<SceneSpec> scenes = allScenes();
+  unchanged.load(findScene(scenes, "2_stable/primitives"));
+  unchanged.stepForward(150);
+  EXPECT_NE(unchanged.world().stateHash(), at_150);
+}
+
 TEST_F(SessionTest, SteppingBackShowsEarlierPosesAndForwardAgainTheSameFuture) {
   session.stepForward(30);
   const uint64_t at_30 = session.world().stateHash();

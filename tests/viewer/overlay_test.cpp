@@ -42,7 +42,20 @@ struct Everything {
                     .body_a = ground,
                     .body_b = hang(0),
                     .params = pfx::SwingTwistJointParams{.anchor_point = Vec3(0, 3.5f, -2), .twist_axis = Vec3::UnitY()}});
+    world.addParticles({.name = "net",
+                        .positions = {Vec3(3, 3, 0), Vec3(3.5f, 3, 0), Vec3(4, 3, 0), Vec3(3.5f, 3.5f, 0), Vec3(3.5f, 3, 1)},
+                        .masses = {0.0f, 1.0f, 1.0f, 1.0f, 1.0f},
+                        .strands = {{.particles = {0, 1, 2}}},
+                        .distances = {{.a = 1, .b = 3}},
+                        .angles = {{.a = 0, .b = 1, .c = 2}},
+                        .volumes = {{.a = 0, .b = 1, .c = 3, .d = 4}}});
     for (int i = 0; i < 20; ++i) world.step(1.0f / 60.0f);
+  }
+
+  ViewExtras extras() const {
+    ViewExtras e;
+    e.probe = ProbeRay{Vec3(0, 8, 3), Vec3(0, -16, -6)};
+    return e;
   }
 
   DrawList drawn(const Overlays& overlays, const ViewExtras& extras = {}) const {
@@ -70,7 +83,7 @@ Trails someTrails(const pfx::World& world) {
 TEST(Overlays, EachOneDrawsSomethingOfItsOwnAndOffItDrawsNothing) {
   const Everything e;
   const Trails trails = someTrails(e.world);
-  ViewExtras extras;
+  ViewExtras extras = e.extras();
   extras.trails = &trails;
   const DrawList plain = e.drawn({}, extras);
   EXPECT_EQ(numItems(plain), 0u);
@@ -89,7 +102,7 @@ TEST(Overlays, EachOneDrawsSomethingOfItsOwnAndOffItDrawsNothing) {
 TEST(Overlays, TogetherTheyDrawWhatEachDrawsAlone) {
   const Everything e;
   const Trails trails = someTrails(e.world);
-  ViewExtras extras;
+  ViewExtras extras = e.extras();
   extras.trails = &trails;
   size_t alone = 0;
   for (const OverlayInfo& info : overlayTable()) {
@@ -114,6 +127,34 @@ TEST(Overlays, OfTheSelectionAloneAreThoseOfItsBodies) {
   EXPECT_EQ(list.lines().size(), 12u);
   extras.selected.clear();
   EXPECT_EQ(e.drawn(o, extras).labels().size(), 4u) << "without a selection everything is meant";
+}
+
+TEST(Overlays, TheProbeFindsWhatARayFinds) {
+  const Everything e;
+  Overlays o;
+  o.probe = true;
+  const DrawList list = e.drawn(o, e.extras());
+  ASSERT_EQ(list.labels().size(), 1u);
+  EXPECT_EQ(list.labels()[0].text.rfind("ball"), list.labels()[0].text.size() - 4) << list.labels()[0].text;
+  ASSERT_EQ(list.points().size(), 1u);
+  EXPECT_NEAR((list.points()[0].position - e.world.states()[1].position).norm(), 0.5f, 1e-3f) << "on the ball";
+}
+
+TEST(Overlays, ASimpleWorldShowsTheAxisOfItsSweep) {
+  pfx::World world({.pipeline = pfx::Pipeline::Simple});
+  for (int i = 0; i < 3; ++i)
+    world.addBody({.pose = {.position = Vec3(0, 0, 3.0f * float(i))}, .shapes = {{pfx::Sphere{0.5f}}}});
+  world.step(1.0f / 60.0f);
+  DrawList list;
+  WorldView view(list);
+  Overlays o;
+  o.tree = true;
+  list.begin();
+  view.add(world, o);
+  list.end();
+  ASSERT_EQ(list.arrows().size(), 3u);
+  for (const Arrow& a : list.arrows()) EXPECT_NEAR(a.to.z() - a.from.z(), 1.0f, 1e-4f);
+  EXPECT_EQ(list.legend()[0].text, "sweep along z");
 }
 
 TEST(Overlays, TheMassBoxOfAUniformBoxIsTheBox) {

@@ -123,6 +123,10 @@ void Browser::record() {
   if (settings_.overlays.selection_only) extras.selected = selectedBodies();
   const Trails trails = settings_.overlays.trails ? recentTrails() : Trails();
   extras.trails = &trails;
+  if (!ImGui::GetIO().WantCaptureMouse && mouse_x_ >= 0.0f) {
+    const Ray ray = mouseRay(mouse_x_, mouse_y_);
+    extras.probe = ProbeRay{ray.origin, ray.direction};
+  }
   view_->add(session_.world(), settings_.overlays, extras);
   if (selected_.kind == PickKind::Triangle)
     view_->addTriangle(session_.world(), selected_.body.index, selected_.facet, kSelectedColor);
@@ -174,7 +178,8 @@ FrameInput Browser::frameInput() const {
           .height = height_,
           .ui = nullptr,
           .selected = pickOf(session_.world(), selected_),
-          .label_scale = 1.0f};
+          .label_scale = 1.0f,
+          .covered_right = covered_right_};
 }
 
 void Browser::layOutSide(const PanelArea& area) {
@@ -201,14 +206,16 @@ void Browser::select(const Selection& selection) {
 void Browser::layOutPanels() {
   selected_ = stillThere(session_.world(), selected_);
   const float w = float(width_), h = float(height_), unit = ImGui::GetFontSize(), gap = 0.6f * unit;
+  covered_right_ = 0.0f;
   if (settings_.show_ui) {
     const float bar = 2.7f * unit, left = 15.0f * unit, right = 23.0f * unit,
-                drawer = settings_.show_costs ? 11.0f * unit : 0.0f;
+                drawer = settings_.show_costs ? 16.0f * unit : 0.0f;
     const float sides = h - bar - 3.0f * gap - (drawer > 0.0f ? drawer + gap : 0.0f);
     if (const auto target =
             sceneListPanel({gap, gap, left, sides}, scenes_, session_.spec().target(), list_state_))
       requestLoad(*target);
     layOutSide({w - right - gap, gap, right, sides});
+    covered_right_ = right + gap;
     const TransportEdit transport = transportPanel({gap, h - bar - gap, w - 2.0f * gap, bar}, session_);
     if (transport.command) execute(*transport.command);
     if (transport.speed) session_.speed = *transport.speed;
@@ -219,8 +226,8 @@ void Browser::layOutPanels() {
     if (drawer > 0.0f) costsPanel({gap, h - bar - drawer - 2.0f * gap, w - 2.0f * gap, drawer}, session_);
   }
   if (help_) helpPanel({0.0f, 0.0f, w, h}, help_);
-  if (!pending_.empty())
-    messagePanel({0.0f, 0.0f, w, h - 4.0f * unit}, "building " + pending_ + " ...");
+  if (built_.valid())
+    messagePanel({0.0f, 0.0f, w, h - 4.0f * unit}, buildingText());
   else if (message_left_ > 0.0f)
     messagePanel({0.0f, 0.0f, w, h - 4.0f * unit}, message_);
 }
@@ -253,15 +260,37 @@ void Browser::toggleRecording() {
   }
 }
 
-// A scene may take seconds to build: what is being done is on the screen before it begins.
-void Browser::loadPending() {
-  if (pending_.empty()) return;
-  if (!pending_shown_) {
-    pending_shown_ = true;
+// A scene may take seconds to build: the window goes on meanwhile. One that is wanted while another is being built is
+// next.
+void Browser::beginBuilding() {
+  if (pending_.empty() || built_.valid()) return;
+  building_ = std::exchange(pending_, "");
+  building_since_ = Clock::now();
+  const SceneSpec spec = findScene(scenes_, building_);
+  const RunSettings settings{.threads = session_.settings.threads};
+  built_ = std::async(std::launch::async, [spec, settings] { return std::make_unique<SceneRun>(spec, settings); });
+}
+
+void Browser::finishBuilding() {
+  if (!built_.valid() || built_.wait_for(std::chrono::seconds(0)) != std::future_status::ready) return;
+  const std::string target = std::exchange(building_, "");
+  try {
+    session_.take(built_.get());
+    session_.settings = {.threads = session_.settings.threads};
+  } catch (const std::exception& error) {
+    say(target + ": " + error.what());
     return;
   }
-  load(std::exchange(pending_, ""));
-  pending_shown_ = false;
+  settings_.target = target;
+  showScene();
+  session_.paused = false;
+}
+
+std::string Browser::buildingText() const {
+  const double seconds = std::chrono::duration<double>(Clock::now() - building_since_).count();
+  char text[32];
+  std::snprintf(text, sizeof text, " ... %.1f s", seconds);
+  return "building " + building_ + text;
 }
 
 void Browser::drawFrame(const UiInput::Frame& input, float dt) {
@@ -271,7 +300,8 @@ void Browser::drawFrame(const UiInput::Frame& input, float dt) {
   ImGui::Render();
   handleKeys(input, dt);
   handleMouse(input);
-  loadPending();
+  beginBuilding();
+  finishBuilding();
   session_.advance(dt);
   record();
   FrameInput frame = frameInput();
@@ -296,7 +326,7 @@ int Browser::run() {
     width_ = std::clamp(input.width, 1, 8192);
     height_ = std::clamp(input.height, 1, 8192);
     const bool busy = !session_.paused || resized || moved || input_.waiting() || !input.characters.empty() ||
-                      input.wheel_y != 0.0f || drag_ != DragMode::None || message_left_ > 0.0f || !pending_.empty() ||
+                      input.wheel_y != 0.0f || drag_ != DragMode::None || message_left_ > 0.0f || !pending_.empty() || built_.valid() ||
                       !input.keys.empty();
     idle = busy ? 0 : idle + 1;
     const auto now = Clock::now();

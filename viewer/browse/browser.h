@@ -4,6 +4,8 @@
 
 #include <imgui.h>
 
+#include <chrono>
+#include <future>
 #include <memory>
 #include <string>
 #include <vector>
@@ -38,8 +40,10 @@ class Browser {
   void layOutSide(const PanelArea& area);
   void record();
   void load(const std::string& target);
-  void requestLoad(const std::string& target) { pending_ = target, pending_shown_ = false; }
-  void loadPending();
+  void requestLoad(const std::string& target) { pending_ = target; }
+  void beginBuilding();
+  void finishBuilding();
+  std::string buildingText() const;
   void openRecording(const std::string& file);
   void showScene();
   void restart();
@@ -92,8 +96,11 @@ class Browser {
   float drag_start_x_ = 0.0f, drag_start_y_ = 0.0f, mouse_x_ = 0.0f, mouse_y_ = 0.0f;
   float pull_depth_ = 0.0f;  // m along the view
   int width_ = 0, height_ = 0;
-  std::string pending_;  // target that is to be loaded as soon as the screen says so
-  bool pending_shown_ = false;
+  float covered_right_ = 0.0f;  // px, by the panel
+  std::string pending_;  // target of the scene that is wanted next
+  std::string building_;  // target of the one that is being built meanwhile, on a thread of its own
+  std::future<std::unique_ptr<SceneRun>> built_;
+  std::chrono::steady_clock::time_point building_since_;
   std::string message_;
   float message_left_ = 0.0f;  // s
   std::vector<int> command_keys_;  // held keys that were pressed together with Shift or Ctrl

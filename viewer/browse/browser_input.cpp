@@ -267,9 +267,13 @@ bool Browser::executeOverlay(BrowseCommand command) {
   }
 }
 
+// Counted from the scene that was asked for last, be it shown yet or not.
 void Browser::changeScene(int by) {
-  const auto at = std::find_if(scenes_.begin(), scenes_.end(),
-                               [&](const SceneSpec& s) { return s.target() == session_.spec().target(); });
+  const std::string from = !pending_.empty()    ? pending_
+                           : !building_.empty() ? building_
+                                                : session_.spec().target();
+  const auto at =
+      std::find_if(scenes_.begin(), scenes_.end(), [&](const SceneSpec& s) { return s.target() == from; });
   const int count = int(scenes_.size()), index = int(at - scenes_.begin());
   requestLoad(scenes_[size_t((index + by + count) % count)].target());
 }

@@ -35,7 +35,7 @@ std::span<const KeyBinding> keyBindings() {
       KeyBinding{ToggleJoints, 'J', false, true, "Shift+J", "show joints"},
       KeyBinding{ToggleVelocity, 'V', false, true, "Shift+V", "show velocities"},
       KeyBinding{ToggleWorld, 'W', false, true, "Shift+W", "show the box of the world"},
-      KeyBinding{Pause, 'P', false, false, "P", "the same, also while Space jumps"},
+      KeyBinding{Pause, 'P', false, false, "P", "pause, where Space jumps"},
       KeyBinding{Steer, 'G', false, false, "G", "steer the scene, or fly the camera"},
       KeyBinding{Record, 'R', true, false, "Ctrl+R", "record every step, or stop"},
       KeyBinding{Screenshot, key::kF12, false, false, "F12", "save a picture"},

@@ -39,6 +39,7 @@ void Session::begin(std::unique_ptr<SceneRun> run) {
   grab.reset();
   parameters_ = valuesOf(run_->scene());
   start_dt_ = run_->settings().dt;
+  start_substeps_ = uint32_t(world().def().substeps);
   shown_ = 0;
   rewound_ = false;
   exact_ = true;
@@ -241,7 +242,7 @@ std::vector<uint8_t> Session::stopRecording() {
   recorded_from_.reset();
   RecordingWriter writer({.target = spec().target(),
                           .dt = start_dt_,
-                          .substeps = uint32_t(world().def().substeps),
+                          .substeps = start_substeps_,
                           .parameters = parameters_,
                           .inputs = inputs_});
   for (uint64_t step = from; step <= std::max(from, shown_) && step <= history_.last(); ++step)

@@ -34,6 +34,8 @@ class Session {
 
   // Throws what the scene throws; then the session is as it was.
   void load(const SceneSpec& spec);
+  // Shows a run that was built elsewhere.
+  void take(std::unique_ptr<SceneRun> run) { begin(std::move(run)); }
   void restart();
   // Shows a recording: going on repeats it and compares. Throws InputError when its scene is not known.
   void open(const Recording& recording);
@@ -105,6 +107,7 @@ class Session {
   std::vector<TimedInput> inputs_;
   std::vector<float> parameters_;  // at the start of the run
   float start_dt_ = samples::kTimeStep;
+  uint32_t start_substeps_ = 1;
   std::vector<std::byte> present_;  // snapshot of the last step, while an earlier one is shown
   uint64_t shown_ = 0;
   bool rewound_ = false;  // an earlier step than the last is shown

@@ -46,7 +46,10 @@ void compareWithGolden(FrameResult& r, const Image& actual, const VerifySettings
   r.same_rasteriser = r.golden.renderer == r.actual.renderer;
   const Limits limits = r.golden.tolerance ? r.golden.tolerance->limits : Limits{};
   r.verdict = judge(expected, actual, r.same_rasteriser ? Rasteriser::Same : Rasteriser::Other, limits);
-  if (!r.verdict.exact) addDifferencePictures(r, expected, actual);
+  if (r.verdict.exact)
+    r.actual_png = r.expected_png;
+  else
+    addDifferencePictures(r, expected, actual);
   r.triage = findTriage(r);
   r.pass = r.triage == Triage::None;
   r.why = r.verdict.why;
@@ -73,17 +76,18 @@ FrameResult judgeFrame(const SceneSpec& scene, RenderedFrame&& frame, const std:
               .camera = scene.camera,
               .renderer = renderer,
               .tolerance = {}};
-  r.actual_png = encodePng(frame.image);
   const bool no_picture = !fs::exists(framePath(settings.golden_dir, r.target, r.frame, ".png"));
   const bool no_record = !fs::exists(framePath(settings.golden_dir, r.target, r.frame, ".json"));
   if (no_picture && no_record)
     r.triage = Triage::NewFrame, r.why = "no golden image yet; accept with --approve --reason TEXT";
   else
     compareWithGolden(r, frame.image, settings);
+  if (r.actual_png.empty()) r.actual_png = encodePng(frame.image);
   return r;
 }
 
-// Draws scenes until none is left; several threads share one queue.
+// Draws scenes until none is left; several threads share one queue. The last ones of the list come first: those are the
+// large ones, and a long scene at the end would leave the other threads without work.
 class Queue {
  public:
   Queue(std::span<const SceneSpec> scenes, const VerifySettings& settings, const VerifyProgress& progress)
@@ -92,7 +96,8 @@ class Queue {
   }
 
   void work(FrameSource& source) {
-    for (size_t i = next_++; i < scenes_.size(); i = next_++) {
+    for (size_t taken = next_++; taken < scenes_.size(); taken = next_++) {
+      const size_t i = scenes_.size() - 1 - taken;
       const SceneSpec& scene = scenes_[i];
       try {
         source.render(scene, scene.frames, [&](RenderedFrame&& frame) {

@@ -59,6 +59,18 @@ std::vector<uint32_t> jointsOf(const pfx::World& world, const pfx::IslandView& i
   return joints;
 }
 
+std::string solverName(const pfx::World& world, uint32_t island) {
+  const pfx::IslandView view = world.island(island);
+  if (view.asleep) return "asleep";
+  const pfx::IslandSolvers solvers = world.islandSolvers(island);
+  std::string name;
+  if (!view.contacts.empty()) name = solvers.newton ? "Newton's method" : "sequential impulses";
+  const auto add = [&](const char* part) { name += (name.empty() ? "" : ", ") + std::string(part); };
+  if (solvers.direct_joints) add("joints directly");
+  if (solvers.soft_joints) add("joints softly");
+  return name.empty() ? "free flight" : name;
+}
+
 Json islandJson(const pfx::World& world, uint32_t island) {
   const pfx::IslandView view = world.island(island);
   const SleepFacts sleep = explainSleep(world, island);
@@ -79,6 +91,7 @@ Json islandJson(const pfx::World& world, uint32_t island) {
           {"asleep", view.asleep},
           {"sleep_timer", view.sleep_timer},
           {"why", sleep.why},
+          {"solver", solverName(world, island)},
           {"fastest", std::move(fastest)},
           {"contact_pairs", std::move(pairs)},
           {"joint_list", std::move(joints)}};

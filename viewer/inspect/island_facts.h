@@ -20,7 +20,10 @@ SleepFacts explainSleep(const pfx::World& world, uint32_t island);
 // Joints that link a body of the island, ascending.
 std::vector<uint32_t> jointsOf(const pfx::World& world, const pfx::IslandView& island);
 
-// {"id", "bodies", "contacts", "joints", "asleep", "sleep_timer", "why", ...}
+// What solved it in the last step, in words.
+std::string solverName(const pfx::World& world, uint32_t island);
+
+// {"id", "bodies", "contacts", "joints", "asleep", "sleep_timer", "why", "solver", ...}
 Json islandJson(const pfx::World& world, uint32_t island);
 
 }  // namespace viewer

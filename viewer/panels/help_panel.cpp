@@ -8,7 +8,7 @@ namespace viewer {
 void helpPanel(const PanelArea& screen, bool& open) {
   const float unit = ImGui::GetFontSize();
   const float width = std::min(screen.width - 2.0f * unit, 52.0f * unit),
-              height = std::min(screen.height - 2.0f * unit, 34.0f * unit);
+              height = std::min(screen.height - 2.0f * unit, 37.0f * unit);
   ImGui::SetNextWindowFocus();
   ImGui::SetNextWindowBgAlpha(0.97f);
   ImGui::SetNextWindowPos(ImVec2(0.5f * (screen.width - width), 0.5f * (screen.height - height)));

@@ -89,6 +89,7 @@ void islandFacts(const World& world, uint32_t index, InspectorEdit& edit) {
     factRow("contacts", "%zu", island.contacts.size());
     factRow("joints", "%u", island.joints);
     factRow("still for", "%.2f s", double(island.sleep_timer));
+    factRow("solved by", "%s", solverName(world, index).c_str());
     ImGui::EndTable();
   }
   if (ImGui::CollapsingHeader("Members", ImGuiTreeNodeFlags_DefaultOpen)) {

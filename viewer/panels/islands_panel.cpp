@@ -46,7 +46,8 @@ std::optional<Selection> islandsSection(const pfx::World& world, const Selection
   std::optional<Selection> chosen;
   if (world.numIslands() == 0) ImGui::TextDisabled("no island is awake");
   constexpr ImGuiTableFlags kFlags =
-      ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_Sortable | ImGuiTableFlags_NoSavedSettings;
+      ImGuiTableFlags_RowBg | ImGuiTableFlags_ScrollY | ImGuiTableFlags_Sortable |
+      ImGuiTableFlags_SizingStretchProp | ImGuiTableFlags_NoSavedSettings;
   if (!ImGui::BeginTable("islands", 5, kFlags)) return chosen;
   for (const char* column : {"island", "bodies", "contacts", "joints", "still for"}) ImGui::TableSetupColumn(column);
   ImGui::TableSetupScrollFreeze(0, 1);

@@ -81,12 +81,21 @@ void countersSection(const Session& session) {
 }
 
 void solverSection(Session& session, SideEdit& edit) {
-  int substeps = session.world().def().substeps;
-  if (ImGui::SliderInt("sub-steps", &substeps, 1, 32)) {
-    session.settings.substeps = std::clamp(substeps, 1, 32);
-    edit.restart = true;
+  const pfx::SolverSettings before = session.world().solver();
+  pfx::SolverSettings solver = before;
+  if (ImGui::SliderInt("sub-steps", &solver.substeps, 1, 32)) solver.substeps = std::clamp(solver.substeps, 1, 32);
+  const auto choose = [](const char* label, auto& choice, const char* names) {
+    int index = int(choice);
+    if (ImGui::Combo(label, &index, names)) choice = std::decay_t<decltype(choice)>(index);
+  };
+  choose("contacts", solver.contact_solver, "automatic\0sequential impulses\0Newton's method\0");
+  choose("joints", solver.joint_solver, "automatic\0direct\0soft\0");
+  if (solver != before) {
+    session.settings.substeps = solver.substeps;
+    session.settings.joint_solver = solver.joint_solver;
+    session.settings.contact_solver = solver.contact_solver;
+    edit.inputs.push_back(solver);
   }
-  if (ImGui::IsItemHovered()) ImGui::SetTooltip("starts the scene again");
   float hertz = 1.0f / session.timeStep();
   if (ImGui::SliderFloat("steps a second", &hertz, 15.0f, 480.0f, "%.0f Hz", ImGuiSliderFlags_Logarithmic)) {
     session.settings.dt = 1.0f / std::max(1.0f, std::round(hertz));

@@ -1,8 +1,10 @@
 // Labels, legend and scale bar: text from ImGui's built-in font, laid out in whole pixels.
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "viewer/render/label_places.h"
 #include "viewer/render/passes.h"
 
 namespace viewer {
@@ -17,6 +19,10 @@ struct Glyph {
 static_assert(sizeof(Glyph) == 32);
 
 const pfx::Vec3 kNeverHidden(0.0f, 0.0f, -1.0f);
+
+struct Point2 {
+  float x, y;  // px
+};
 
 // Collects quads of text. Positions are pixels from the top left corner.
 class TextLayout {
@@ -46,6 +52,18 @@ class TextLayout {
     }
   }
 
+  // A line of one pixel.
+  void line(const Point2& from, const Point2& to, Color color, const pfx::Vec3& anchor) {
+    const float length = std::hypot(to.x - from.x, to.y - from.y);
+    if (!(length > 0.0f)) return;
+    const float x = -0.5f * scale_ * (to.y - from.y) / length, y = 0.5f * scale_ * (to.x - from.x) / length;
+    const ImVec2 white = font_.ContainerAtlas->TexUvWhitePixel;
+    const auto corner = [&](float px, float py) { return Glyph{px, py, white.x, white.y, color, anchor}; };
+    const Glyph a = corner(from.x - x, from.y - y), b = corner(from.x + x, from.y + y),
+                c = corner(to.x + x, to.y + y), d = corner(to.x - x, to.y - y);
+    glyphs_.insert(glyphs_.end(), {a, b, c, a, c, d});
+  }
+
   void rectangle(float x, float y, float w, float h, Color color) {
     const ImVec2 white = font_.ContainerAtlas->TexUvWhitePixel;
     quad({x, y, x + w, y + h}, {white.x, white.y, white.x, white.y}, color, kNeverHidden);
@@ -73,30 +91,47 @@ class TextLayout {
   std::vector<Glyph> glyphs_;
 };
 
-void layLabel(TextLayout& layout, const Label& label, const LabelPass::Input& in) {
-  const float w = float(in.width), h = float(in.height), text_width = layout.width(label.text);
-  if (label.on_screen) {
-    float x = label.position.x(), y = label.position.y();
-    if (std::signbit(x)) x += w - text_width;
-    if (std::signbit(y)) y += h - layout.height();
-    layout.text(x, y, label.text, label.color, kNeverHidden);
-    return;
-  }
+void layOnScreen(TextLayout& layout, LabelPlaces& places, const Label& label, const LabelPass::Input& in) {
+  const float text_width = layout.width(label.text);
+  float x = label.position.x(), y = label.position.y();
+  if (std::signbit(x)) x += float(in.width) - text_width;
+  if (std::signbit(y)) y += float(in.height) - layout.height();
+  layout.text(x, y, label.text, label.color, kNeverHidden);
+  places.take({x, y, x + text_width, y + layout.height()});
+}
+
+// Beside its anchor, or as near as there is room, then with a line to it. One without room is left out.
+void layInWorld(TextLayout& layout, LabelPlaces& places, const Label& label, const LabelPass::Input& in) {
   const Eigen::Vector4f clip = in.frame->clip_from_world * label.position.homogeneous();
   if (!(clip.w() > 0.0f) || clip.z() < -clip.w()) return;
   const pfx::Vec3 at = 0.5f * (clip.head<3>() / clip.w()) + pfx::Vec3::Constant(0.5f);
   // The anchor is slightly nearer than it is, so that a label on a surface is not hidden by that surface.
   const pfx::Vec3 anchor(at.x(), at.y(), at.z() - 0.002f * (1.0f - at.z()));
-  layout.text(at.x() * w + 6.0f * in.scale, (1.0f - at.y()) * h - 0.5f * layout.height(), label.text,
-              label.color, anchor);
+  const Point2 tip = {at.x() * float(in.width), (1.0f - at.y()) * float(in.height)};
+  const float w = float(in.width), h = float(in.height), text_width = layout.width(label.text);
+  float x = tip.x + 6.0f * in.scale, y = tip.y - 0.5f * layout.height();
+  // What is in the picture has its label in the picture.
+  if (tip.x >= 0.0f && tip.x <= w && tip.y >= 0.0f && tip.y <= h) {
+    x = std::max(0.0f, std::min(x, w - text_width));
+    y = std::max(0.0f, std::min(y, h - layout.height()));
+  }
+  const auto place = places.find({x, y, x + text_width, y + layout.height()}, tip.x);
+  if (!place) return;
+  if (place->x0 != x || place->y0 != y) {
+    const Point2 edge = {place->x0 > tip.x ? place->x0 - 1.0f : place->x1 + 1.0f, 0.5f * (place->y0 + place->y1)};
+    layout.line(tip, edge, (label.color & 0x00ffffffu) | 0xb0000000u, anchor);
+  }
+  layout.text(place->x0, place->y0, label.text, label.color, anchor);
 }
 
-void layLegend(TextLayout& layout, const DrawList& list, const LabelPass::Input& in) {
+void layLegend(TextLayout& layout, LabelPlaces& places, const DrawList& list, const LabelPass::Input& in) {
   float y = 10.0f * in.scale;
   for (const LegendEntry& entry : list.legend()) {
-    const float side = layout.height(), x = float(in.width) - layout.width(entry.text) - 10.0f * in.scale;
+    const float right = float(in.width) - in.covered_right, side = layout.height(),
+                x = right - layout.width(entry.text) - 10.0f * in.scale;
     layout.rectangle(x - 1.6f * side, y + 0.1f * side, side, 0.8f * side, entry.color);
     layout.text(x, y, entry.text, 0xff20242bu, kNeverHidden);
+    places.take({x - 1.6f * side, y, right, y + side});
     y += 1.25f * side;
   }
 }
@@ -162,8 +197,12 @@ LabelPass::LabelPass(const Gl& gl, const std::string& shaders)
 void LabelPass::draw(const DrawList& list, const Input& in) {
   if (list.labels().empty() && list.legend().empty() && !list.scale_bar) return;
   TextLayout layout(*font_->Fonts[0], in.scale);
-  for (const Label& label : list.labels()) layLabel(layout, label, in);
-  layLegend(layout, list, in);
+  LabelPlaces places(float(in.height), layout.height());
+  layLegend(layout, places, list, in);
+  for (const Label& label : list.labels())
+    if (label.on_screen) layOnScreen(layout, places, label, in);
+  for (const Label& label : list.labels())
+    if (!label.on_screen) layInWorld(layout, places, label, in);
   if (list.scale_bar) layScaleBar(layout, list.camera, in);
   const std::vector<Glyph>& glyphs = layout.glyphs();
   if (glyphs.empty()) return;

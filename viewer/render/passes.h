@@ -45,7 +45,7 @@ class SolidPass {
  private:
   void useShadow(GLuint shadow_map) const;
   const Gl* gl_;
-  Program plain_, shiny_, floor_, plain_round_, shiny_round_;
+  Program depth_, plain_, shiny_, floor_, plain_round_, shiny_round_;
 };
 
 // The sky where nothing was drawn.
@@ -136,6 +136,7 @@ class LabelPass {
     GLuint depth;
     int width, height;  // px
     float scale;        // of the text
+    float covered_right;  // px
   };
   void draw(const DrawList& list, const Input& input);
 

@@ -155,7 +155,7 @@ RenderStats Renderer::draw(const FrameInput& frame, const DrawList& list) {
   r.output.bind();
   r.resolve.draw(r.scene.color(), side);
   if (frame.selected) r.outline.draw(r.id_map.color(), frame.selected);
-  r.labels.draw(list, {&block, r.scene.depth(), frame.width, frame.height, frame.label_scale});
+  r.labels.draw(list, {&block, r.scene.depth(), frame.width, frame.height, frame.label_scale, frame.covered_right});
   if (frame.ui) r.ui.draw(*frame.ui, frame.width, frame.height);
   r.checkErrors();
 

@@ -34,6 +34,7 @@ struct FrameInput {
   const ImDrawData* ui = nullptr;  // painted on top, one unit a pixel
   uint32_t selected = 0;           // pick id to outline; 0: none
   float label_scale = 1.0f;        // of text, whole numbers are sharpest
+  float covered_right = 0.0f;      // px at the right that the user interface covers: the legend keeps clear of it
 };
 
 struct RenderStats {

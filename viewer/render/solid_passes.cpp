@@ -69,6 +69,7 @@ void ShadowPass::draw(std::span<const SolidDraw> draws, const SunView& sun) cons
 
 SolidPass::SolidPass(const Gl& gl, const std::string& shaders, const Options& options)
     : gl_(&gl),
+      depth_(gl, {"solid_plain.vert.glsl", "solid_plain.frag.glsl", {"PASS_DEPTH"}, shaders}),
       plain_(gl, {"solid.vert.glsl", "solid.frag.glsl", defines({}, options), shaders}),
       shiny_(gl, {"solid.vert.glsl", "solid.frag.glsl", defines({"SHINY"}, options), shaders}),
       floor_(gl, {"solid.vert.glsl", "floor.frag.glsl", defines({}, options), shaders}),
@@ -84,6 +85,8 @@ void SolidPass::useShadow(GLuint shadow_map) const {
 }
 
 void SolidPass::draw(std::span<const SolidDraw> draws, const FrameBlock& frame, GLuint shadow_map) const {
+  SolidPrograms first{*gl_, {.depth = Depth::TestAndWrite, .color = false}, eyeOf(frame)};
+  first.draw(draws, depth_, false, kPlain | kShiny);
   useShadow(shadow_map);
   SolidPrograms pass{*gl_, {.depth = Depth::TestAndWrite}, eyeOf(frame)};
   pass.draw(draws, plain_, false, kPlain);

@@ -2,6 +2,7 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 
 #include "pfx/util/debug_render/palette.h"
 #include "viewer/inspect/island_facts.h"
@@ -71,18 +72,45 @@ std::vector<Color> islandColors(const pfx::World& world) {
 
 namespace {
 
-std::string solverText(const pfx::World& world, const pfx::IslandView& island) {
+// The largest speed (m/s) at which points that carry load still approach each other: what the solver left over.
+double approachSpeed(const pfx::World& world, const pfx::IslandView& island) {
+  double fastest = 0.0;
+  const auto states = world.states();
+  for (uint32_t i : island.contacts) {
+    const pfx::Pair& pair = world.contactPairs()[i];
+    const pfx::RigidState &a = states[pair.body_a], &b = states[pair.body_b];
+    for (const pfx::ContactManifold& m : world.manifolds(pair))
+      for (int k = 0; k < m.num_points; ++k) {
+        const pfx::ContactPoint& p = m.points[size_t(k)];
+        if (!(p.normal_impulse > 0.0f)) continue;
+        const Vec3 at = b.pose().apply(p.local_b);
+        const Vec3 speed = b.linear_velocity + b.angular_velocity.cross(at - b.position) - a.linear_velocity -
+                           a.angular_velocity.cross(at - a.position);
+        fastest = std::max(fastest, double(-speed.dot(m.normal)));
+      }
+  }
+  return fastest;
+}
+
+std::string solverText(const pfx::World& world, uint32_t index) {
+  const pfx::IslandView island = world.island(index);
   float overlap = 0.0f;
   for (uint32_t pair : island.contacts)
     for (const pfx::ContactManifold& m : world.manifolds(world.contactPairs()[pair]))
       for (int k = 0; k < m.num_points; ++k) overlap = std::max(overlap, -m.points[size_t(k)].distance);
   double joint = 0.0;
   for (uint32_t i : jointsOf(world, island)) joint = std::max(joint, world.jointError(i).distance);
-  const char* solver = island.contacts.empty() ? (island.joints > 0 ? "joints alone" : "free flight")
-                       : island.joints > 0     ? "contacts and joints"
-                                               : "contacts alone";
-  char text[120];
-  std::snprintf(text, sizeof text, "%s, overlap %.3g mm, joints %.3g mm", solver, 1e3 * double(overlap), 1e3 * joint);
+  std::string text = solverName(world, index);
+  const auto add = [&](const char* format, double value) {
+    char part[64];
+    std::snprintf(part, sizeof part, format, value);
+    text += part;
+  };
+  if (!island.contacts.empty()) {
+    add("; overlap %.3g mm", 1e3 * double(overlap));
+    add(", left over %.3g mm/s", 1e3 * approachSpeed(world, island));
+  }
+  if (island.joints > 0) add("; joints %.3g mm", 1e3 * joint);
   return text;
 }
 
@@ -112,7 +140,7 @@ void addIslandLabels(const OverlayScene& scene) {
     if (scene.overlays.sleep) scene.list.add(Label{.position = at, .text = name + explainSleep(world, i).why});
     if (scene.overlays.solver)
       scene.list.add(Label{.position = at + Vec3(0.0f, scene.overlays.sleep ? 0.12f * scene.unit : 0.0f, 0.0f),
-                           .text = name + solverText(world, island)});
+                           .text = name + solverText(world, i)});
   }
 }
 

@@ -28,6 +28,8 @@ Image Capture::draw(const SceneRun& run, const samples::CameraPose& camera, cons
   list.camera = orbitCamera(camera);
   ViewExtras extras;
   extras.trails = &trails;
+  const Camera& eye = list.camera;
+  extras.probe = ProbeRay{eye.eye, 10.0f * (eye.target - eye.eye)};
   view.add(run.world(), settings_.overlays, extras);
   ListCanvas canvas(list);
   run.scene().draw(run.world(), canvas);

@@ -24,12 +24,20 @@ struct OverlayScene {
 using Trails = std::vector<std::vector<pfx::Vec3>>;
 inline constexpr uint64_t kTrailSteps = 120;
 
+// A ray whose way tells its length as well.
+struct ProbeRay {
+  pfx::Vec3 start, way;  // m
+};
+
 void addMasses(const OverlayScene& scene);
 void addNames(const OverlayScene& scene);
 void addTrails(const OverlayScene& scene, const Trails& trails);
 void addContactOverlays(const OverlayScene& scene);
 void addJointOverlays(const OverlayScene& scene);
 void addIslandLabels(const OverlayScene& scene);
+void addParticleOverlays(const OverlayScene& scene);
+void addPairSearch(const OverlayScene& scene);
+void addProbe(const OverlayScene& scene, const ProbeRay& probe);
 
 // Colour of the island of each body, or 0.
 std::vector<Color> islandColors(const pfx::World& world);

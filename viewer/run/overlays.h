@@ -36,8 +36,15 @@ struct Overlays {
   bool mesh_boxes = false;      // bounds of each triangle
   bool mesh_normals = false;
   bool mesh_thickness = false;  // lower faces and sides
+  // Particles
+  bool particles = false;  // free, held, part of a body
+  bool links = false;      // distances that are kept, by strain
+  bool bends = false;      // angles that are kept
+  bool volumes = false;    // tetrahedra that keep their volume
   // Whole scene
   bool world = false;          // the world box
+  bool tree = false;           // boxes of the trees that find pairs, by level, or the extents along the sweep's axis
+  bool probe = false;          // what a ray, a swept ball and an overlap find under the mouse
   bool selection_only = false;  // all of the above only for what is selected
 
   bool operator==(const Overlays&) const = default;

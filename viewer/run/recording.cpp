@@ -19,7 +19,8 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "recordings are little endian");
 
 constexpr char kMagic[8] = {'V', 'T', 'R', 'N', 'R', 'E', 'C', '\n'};
-constexpr uint32_t kVersion = 2;
+constexpr uint32_t kVersion = 3;   // of files that are written
+constexpr uint32_t kOldest = 2;    // that is read: it has no input for the solver, and is the same otherwise
 constexpr uint32_t kMaxTarget = 4096;  // bytes
 constexpr uint32_t kMaxParameters = 4096;
 constexpr size_t kInputFloats = 8;
@@ -87,7 +88,21 @@ struct Pack {
   InputRecord operator()(const samples::Controls& c) const {
     return {uint32_t(c.run) | uint32_t(c.jump) << 1 | uint32_t(c.crouch) << 2, {c.right, c.forward, c.heading}};
   }
+  InputRecord operator()(const pfx::SolverSettings& s) const {
+    return {uint32_t(s.substeps), {float(s.joint_solver), float(s.contact_solver)}};
+  }
 };
+
+pfx::SolverSettings solverOf(const InputRecord& r) {
+  constexpr uint32_t kMostSubsteps = 1000;
+  const auto choice = [](float value, auto last) {
+    if (!(value >= 0.0f) || value > float(last) || value != std::floor(value))
+      throw std::runtime_error("has a solver that is not known");
+    return decltype(last)(int(value));
+  };
+  if (r.index < 1 || r.index > kMostSubsteps) throw std::runtime_error("has sub-steps out of range");
+  return {int(r.index), choice(r.values[0], pfx::JointSolver::Soft), choice(r.values[1], pfx::ContactSolver::Newton)};
+}
 
 SceneInput unpack(uint32_t kind, const InputRecord& r) {
   const auto& v = r.values;
@@ -107,6 +122,8 @@ SceneInput unpack(uint32_t kind, const InputRecord& r) {
       return SetTimeStep{v[0]};
     case 4:
       return samples::Controls{v[0], v[1], v[2], (r.index & 1) != 0, (r.index & 2) != 0, (r.index & 4) != 0};
+    case 5:
+      return solverOf(r);
     default:
       break;
   }
@@ -188,9 +205,9 @@ Recording::Recording(std::vector<uint8_t> bytes, const std::string& name) : byte
     if (std::memcmp(reader.take(sizeof kMagic).data(), kMagic, sizeof kMagic) != 0)
       throw std::runtime_error("is not a recording");
     const auto version = reader.get<uint32_t>();
-    if (version != kVersion)
-      throw std::runtime_error("is a recording of version " + std::to_string(version) +
-                               "; this program reads version " + std::to_string(kVersion));
+    if (version < kOldest || version > kVersion)
+      throw std::runtime_error("is a recording of version " + std::to_string(version) + "; this program reads versions " +
+                               std::to_string(kOldest) + " to " + std::to_string(kVersion));
     head_.dt = reader.get<float>();
     head_.substeps = reader.get<uint32_t>();
     const auto frames = reader.get<uint32_t>();

@@ -2,7 +2,7 @@
 // that any frame can be shown at once and a run can be checked against it; and what a person did meanwhile, so that it
 // can be run again.
 //
-// File, little endian, version 2:
+// File, little endian, version 3 (2 is read as well):
 //   char[8] "VTRNREC\n" | u32 version | f32 dt (s) | u32 sub-steps | u32 frames | u32 length of target |
 //   u32 parameters | u32 inputs | target | parameters x f32 |
 //   inputs x (u64 step, u32 kind, u32 index, 8 f32; kinds are those of SceneInput) |
@@ -40,7 +40,7 @@ RecordedFrame captureFrame(const SceneRun& run);
 struct RecordingHead {
   std::string target;  // of the scene
   float dt = 0.0f;     // s, at the start of the run
-  uint32_t substeps = 0;
+  uint32_t substeps = 0;  // at the start of the run
   std::vector<float> parameters = {};   // of the scene when it was built
   std::vector<TimedInput> inputs = {};  // since the start of the run, ascending by step
 };

@@ -51,6 +51,8 @@ struct Apply {
   void operator()(const samples::Controls& controls) const {
     if (run.scene().isControlled()) run.scene().control(controls);
   }
+
+  void operator()(const pfx::SolverSettings& settings) const { run.world().setSolver(settings); }
 };
 
 }  // namespace

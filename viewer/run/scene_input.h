@@ -28,7 +28,8 @@ struct SetParameter {
 struct SetTimeStep {
   float dt = samples::kTimeStep;  // s
 };
-using SceneInput = std::variant<Pull, ThrowBall, SetParameter, SetTimeStep, samples::Controls>;
+using SceneInput =
+    std::variant<Pull, ThrowBall, SetParameter, SetTimeStep, samples::Controls, pfx::SolverSettings>;
 
 // Given when so many steps were made, before the next one.
 struct TimedInput {

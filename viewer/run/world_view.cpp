@@ -1,9 +1,12 @@
 // A world as solids and overlays, through the engine's debug rendering.
 #include "viewer/run/world_view.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdio>
 
+#include "pfx/util/debug_render/palette.h"
 #include "viewer/inspect/mesh_facts.h"
 
 namespace viewer {
@@ -44,6 +47,24 @@ void WorldView::addContacts(const OverlayScene& scene) {
     recorder_.pick = pickId(PickKind::Contact, i);
     debug_.renderContact(scene.world.states(), pairs[i], scene.world.manifolds(pairs[i]));
   }
+}
+
+// Lines along the normals, so many times as long as gaps and overlaps are that the longest can be seen.
+void WorldView::addContactDepths(const OverlayScene& scene) {
+  float largest = 1e-6f;  // m
+  for (const pfx::Pair& pair : scene.world.contactPairs())
+    for (const pfx::ContactManifold& m : scene.world.manifolds(pair))
+      for (int k = 0; k < m.num_points; ++k) largest = std::max(largest, std::abs(m.points[size_t(k)].distance));
+  const float factor = std::max(1.0f, std::pow(10.0f, std::floor(std::log10(scene.unit / largest))));
+  const auto pairs = scene.world.contactPairs();
+  for (uint32_t i = 0; i < pairs.size(); ++i) {
+    recorder_.pick = pickId(PickKind::Contact, i);
+    debug_.renderContactDepth(scene.world.states(), pairs[i], scene.world.manifolds(pairs[i]), factor);
+  }
+  char text[48];
+  std::snprintf(text, sizeof text, "overlap, drawn %g times", double(factor));
+  list_.add(LegendEntry{pfx::kContactOverlapColor, text});
+  list_.add(LegendEntry{pfx::kContactGapColor, "gap"});
 }
 
 void WorldView::addIslands(const OverlayScene& scene) {
@@ -112,6 +133,7 @@ void WorldView::addImmediate(const OverlayScene& scene) {
   for (uint32_t body = 0; body < states.size(); ++body)
     debug_.setVisible(body, scene.exists(body) && scene.shows(body));
   if (scene.overlays.contacts) addContacts(scene);
+  if (scene.overlays.penetration) addContactDepths(scene);
   if (scene.overlays.joints) addJoints(scene);
   if (scene.overlays.islands) addIslands(scene);
   recorder_.pick = 0;
@@ -145,6 +167,9 @@ void WorldView::add(const pfx::World& world, const Overlays& overlays, const Vie
   addContactOverlays(scene);
   addJointOverlays(scene);
   if (overlays.sleep || overlays.solver) addIslandLabels(scene);
+  addParticleOverlays(scene);
+  if (overlays.tree) addPairSearch(scene);
+  if (overlays.probe && extras.probe) addProbe(scene, *extras.probe);
 }
 
 void WorldView::addTriangle(const pfx::World& world, uint32_t body, uint32_t facet, Color color) {

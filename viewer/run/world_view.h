@@ -2,6 +2,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 
 #include "pfx/high_level/world/world.h"
 #include "pfx/util/debug_render/debug_render.h"
@@ -15,6 +16,7 @@ namespace viewer {
 struct ViewExtras {
   std::vector<uint8_t> selected = {};  // by body; empty: nothing is selected
   const Trails* trails = nullptr;
+  std::optional<ProbeRay> probe = {};
 };
 
 class WorldView {
@@ -35,6 +37,7 @@ class WorldView {
   void addImmediate(const OverlayScene& scene);
   void addBodyOverlays(const OverlayScene& scene);
   void addContacts(const OverlayScene& scene);
+  void addContactDepths(const OverlayScene& scene);
   void addJoints(const OverlayScene& scene);
   void addIslands(const OverlayScene& scene);
   void addMeshes(const OverlayScene& scene);

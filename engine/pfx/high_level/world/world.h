@@ -12,6 +12,7 @@
 #include "pfx/base_level/collision/pair.h"
 #include "pfx/base_level/rigid_body/rigid_body.h"
 #include "pfx/base_level/rigid_body/rigid_state.h"
+#include "pfx/base_level/shape/aabb.h"
 #include "pfx/base_level/shape/collidable.h"
 #include "pfx/base_level/simd_level.h"
 #include "pfx/high_level/particles/particle_def.h"
@@ -83,6 +84,28 @@ struct IslandView {
   float sleep_timer;  // s below the sleep velocity
 };
 
+// How the next steps are solved: the fields of that name in WorldDef.
+struct SolverSettings {
+  int substeps = 4;
+  JointSolver joint_solver = JointSolver::Auto;
+  ContactSolver contact_solver = ContactSolver::Auto;
+  bool operator==(const SolverSettings&) const = default;
+};
+
+// What solved an island in the last step.
+struct IslandSolvers {
+  bool newton = false;         // contacts, or some of them: Newton's method; else sequential impulses
+  bool direct_joints = false;  // joints, or some of them: block elimination
+  bool soft_joints = false;    // joints, or some of them: soft rows
+};
+
+// A box of the trees that find pairs, for views.
+struct TreeBox {
+  Aabb bounds;     // m
+  uint32_t level;  // 0: what a root holds
+  bool is_leaf;    // of one body
+};
+
 struct WorldCounts {
   uint32_t bodies = 0, awake = 0, pairs = 0, touching_pairs = 0, contact_points = 0, islands = 0, joints = 0;
 };
@@ -95,6 +118,11 @@ class World {
   World& operator=(World&&) noexcept;
 
   const WorldDef& def() const;
+
+  // Solves the next steps otherwise; what was remembered of the last ones stays. Throws std::invalid_argument for less
+  // than one sub-step.
+  void setSolver(const SolverSettings& settings);
+  SolverSettings solver() const;
 
   // Takes a mesh into the world's keeping, so that shapes may point at it for as long as the world lives.
   const ConvexMesh* keep(ConvexMesh mesh);
@@ -202,6 +230,12 @@ class World {
 
   uint32_t numIslands() const;
   IslandView island(uint32_t index) const;
+  IslandSolvers islandSolvers(uint32_t index) const;
+
+  // Boxes of the trees that find pairs, as the last step left them; empty in a Simple world.
+  std::vector<TreeBox> treeBoxes() const;
+  // The axis (0, 1, 2) along which a Simple world sorts its bodies to find pairs; -1 in worlds that have trees.
+  int sweepAxis() const;
 
   WorldCounts counts() const;  // counted once after each step or change
   std::span<const StageTime> stageTimes() const;  // of the last step, in order

@@ -17,6 +17,7 @@
 #include <cstdint>
 #include <limits>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "pfx/base_level/shape/aabb.h"
@@ -62,6 +63,10 @@ class DynamicTree {
   std::size_t memoryBytes() const;
   Aabb bounds() const;  // of everything; empty when there is nothing
   Aabb boundsAt(Location at) const { return slotBounds(nodes_[at >> 2], at & 3); }
+
+  // Calls fn(bounds, level, is_leaf) for every box in the tree, from the root (level 0) down.
+  template <class Fn>
+  void visit(Fn&& fn) const;
 
   // Calls fn(id) for each leaf whose bounds overlap `box`.
   template <class Fn>

@@ -96,6 +96,22 @@ inline uint32_t DynamicTree::rayMask(const Node& node, const RayLanes& ray, floa
 inline constexpr std::size_t kTreeStack = 3 * 31 + 4;
 
 template <class Fn>
+void DynamicTree::visit(Fn&& fn) const {
+  if (root_ == kNoNode) return;
+  std::vector<std::pair<uint32_t, uint32_t>> waiting = {{root_, 0}};  // nodes and their levels
+  while (!waiting.empty()) {
+    const auto [at, level] = waiting.back();
+    const Node& node = nodes_[at];
+    waiting.pop_back();
+    for (uint32_t slot = 0; slot < node.count; ++slot) {
+      const bool is_leaf = (node.child[slot] & kLeaf) != 0;
+      fn(slotBounds(node, slot), level, is_leaf);
+      if (!is_leaf) waiting.push_back({node.child[slot], level + 1});
+    }
+  }
+}
+
+template <class Fn>
 void DynamicTree::overlap(const Aabb& box, Fn&& fn) const {
   if (root_ == kNoNode) return;
   std::array<uint32_t, kTreeStack> stack;

@@ -35,7 +35,7 @@ uint32_t rowsOf(const Joint& j) {
 bool JointComponents::update(std::span<const JointConstraint> joints, uint32_t num_bodies,
                              JointSolver solver) {
   const bool same =
-      joints_.size() == joints.size() && std::equal(joints.begin(), joints.end(), joints_.begin());
+      solver_ == solver && joints_.size() == joints.size() && std::equal(joints.begin(), joints.end(), joints_.begin());
   bool same_rows = same;
   rows_.resize(joints.size());
   for (size_t i = 0; i < joints.size(); ++i) {
@@ -44,6 +44,7 @@ bool JointComponents::update(std::span<const JointConstraint> joints, uint32_t n
     rows_[i] = rows;
   }
   if (same_rows) return false;
+  solver_ = solver;
   joints_.assign(joints.begin(), joints.end());
   components_.clear();
   std::vector<uint32_t> movable;

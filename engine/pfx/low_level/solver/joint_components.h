@@ -2,7 +2,7 @@
 //
 // A component is the set of joints that movable bodies link. Trees and graphs with few loops are solved
 // directly; where loops would fill the factor, joints become soft rows instead. Made anew only when joints
-// change.
+// or the choice of the solver change.
 #pragma once
 
 #include <deque>
@@ -34,6 +34,7 @@ class JointComponents {
  private:
   void addComponent(std::span<const uint32_t> joints, JointSolver solver);
 
+  JointSolver solver_ = JointSolver::Auto;
   std::vector<JointConstraint> joints_;
   std::vector<uint32_t> rows_;  // which axes each joint constrains, and how
   Islands islands_;
