@@ -34,7 +34,7 @@ class Arm final : public Scene {
   void build(World& world) override {
     buildScene(readArm(), world);
     for (size_t i = 0; i < joints_.size(); ++i) {
-      joints_[i] = world.jointId(static_cast<uint32_t>(i));
+      joints_[i] = jointNamed(world, kNames[i]);
       AxisConstraint& drive = world.joint(joints_[i]).axis[kTwist];
       drive.spring_frequency = 6.0f;
       drive.spring_damping = 1.0f;
@@ -60,15 +60,23 @@ class Arm final : public Scene {
 
  private:
   static constexpr int kTwist = 3;
+  static constexpr std::array<std::string_view, 4> kNames = {"turn", "shoulder", "elbow", "wrist"};
+
+  static JointId jointNamed(const World& world, std::string_view name) {
+    uint32_t i = 0;
+    while (world.jointName(i) != name) ++i;
+    return world.jointId(i);
+  }
+
   struct Pose {
     float time;                  // s
-    std::array<float, 4> angle;  // rad: turn, shoulder, elbow, wrist
+    std::array<float, 4> angle;  // rad, of the joints in the order of kNames
   };
   static constexpr std::array<Pose, 6> kPoses = {{{0.0f, {0.0f, 0.0f, 0.0f, 0.0f}},
-                                                  {1.0f, {-1.2f, 0.9f, 1.2f, 0.9f}},
-                                                  {2.2f, {1.2f, 0.9f, 1.2f, 0.9f}},
-                                                  {3.0f, {1.2f, 1.25f, 0.95f, 0.8f}},
-                                                  {4.2f, {-1.0f, 1.25f, 0.95f, 0.8f}},
+                                                  {1.0f, {1.0f, 0.9f, 1.2f, 0.9f}},
+                                                  {2.2f, {-1.0f, 0.9f, 1.2f, 0.9f}},
+                                                  {3.0f, {-1.0f, 1.25f, 0.95f, 0.8f}},
+                                                  {4.2f, {1.0f, 1.25f, 0.95f, 0.8f}},
                                                   {5.5f, {0.0f, -0.5f, 1.6f, 0.6f}}}};
 
   // Smooth from pose to pose; the last one stays.
@@ -117,7 +125,7 @@ std::vector<SceneEntry> xmlImportScenes() {
        .name = "arm",
        .shows = "arm.urdf: springs on the joints of a robot lead its hand through a pillar of boxes and back",
        .camera = {.target = Vec3(0.5f, 1.0f, 0.0f), .distance = 6.0f, .yaw_deg = 35.0f, .pitch_deg = 18.0f},
-       .frames = {0, 110, 250},
+       .frames = {0, 100, 250},
        .world = {},
        .make = [] { return std::unique_ptr<Scene>(new Arm()); }},
   };

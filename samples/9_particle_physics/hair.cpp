@@ -46,12 +46,15 @@ class Hair final : public ParticleScene {
     constexpr Color kShades[3] = {0xff6b4322u, 0xff7d5029u, 0xff58361bu};
     const ParticleSystem& p = particles(world);
     for (size_t i = 0; i < p.strands().size(); ++i)
-      drawStrand(p, p.strands()[i], {.radius = 0.009f, .tip = 0.35f, .paint = {kShades[i % 3], Finish::Soft}}, canvas);
+      drawStrand(p, p.strands()[i], {.radius = 0.007f, .tip = 0.4f, .paint = {kShades[i % 3], Finish::Soft}}, canvas);
     std::array<Vec3, kPoints> between;
     for (const auto& [a, b] : neighbours_) {
       const auto &from = p.strands()[a].particles, &to = p.strands()[b].particles;
-      for (size_t k = 0; k < kPoints; ++k) between[k] = 0.5f * (p.positions()[from[k]] + p.positions()[to[k]]);
-      drawRods(between, {.radius = 0.008f, .tip = 0.35f, .paint = {kShades[(a + b) % 3], Finish::Soft}}, canvas);
+      for (const float share : {0.33f, 0.67f}) {
+        for (size_t k = 0; k < kPoints; ++k)
+          between[k] = (1.0f - share) * p.positions()[from[k]] + share * p.positions()[to[k]];
+        drawRods(between, {.radius = 0.007f, .tip = 0.4f, .paint = {kShades[(a + b) % 3], Finish::Soft}}, canvas);
+      }
     }
   }
 
@@ -80,7 +83,7 @@ class Hair final : public ParticleScene {
  private:
   static bool isFace(const Vec3& out) { return out.z() > 0.25f && out.y() < 0.62f; }
 
-  // Where no strand is simulated, one is drawn half-way between two of them. On a spiral by the golden angle, places whose
+  // Where no strand is simulated, two are drawn between those beside it. On a spiral by the golden angle, places whose
   // numbers differ by these of Fibonacci lie side by side.
   void findNeighbours(std::span<const int> strand_of) {
     for (const size_t apart : {size_t(8), size_t(13), size_t(21)})

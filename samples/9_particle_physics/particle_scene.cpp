@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include "pfx/high_level/particles/particle_builder.h"
 
@@ -38,10 +39,10 @@ Color heatColor(float heat) {
 
 namespace {
 
-constexpr int kFiner = 3;             // points of the drawn surface from particle to particle
-constexpr int kCheck = 4;             // every so many threads
-constexpr float kSheetLift = 0.006f;  // m, of threads above the surface
-constexpr float kPulled = 0.1f;       // share of kShownStrain from which a thread is coloured
+constexpr int kFiner = 3;         // points of the drawn surface from particle to particle
+constexpr int kCheck = 4;         // every so many threads
+constexpr float kCheckLift = 0.003f, kThreadLift = 0.006f;  // m, above the surface
+constexpr float kPulled = 0.1f;   // share of kShownStrain from which a thread is coloured
 
 // A sheet as a finer grid on the smooth surface through its particles (E. Catmull, R. Rom, A Class of Local Interpolating
 // Splines, 1974), which shows folds round where the particles would show corners.
@@ -57,6 +58,8 @@ class SmoothSheet {
       for (int c = 0; c < columns_; ++c) points_.push_back(across[static_cast<size_t>(c * rows_ + r)]);
   }
 
+  int columns() const { return columns_; }
+  int rows() const { return rows_; }
   std::span<const Vec3> points() const { return points_; }
   std::vector<uint32_t> triangles() const { return clothTriangles(columns_, rows_); }
   const Vec3& at(int r, int c) const { return points_[static_cast<size_t>(r * columns_ + c)]; }
@@ -85,26 +88,52 @@ class SmoothSheet {
   std::vector<Vec3> points_;
 };
 
+// Stripes of one fine cell along and across, `lift` (m) above the sheet or, when negative, below it.
+struct Check {
+  std::vector<Vec3> points;
+  std::vector<uint32_t> triangles;
+
+  Check(const SmoothSheet& sheet, float lift) {
+    for (int r = 0; r + 1 < sheet.rows(); r += kFiner * kCheck) addStripe(sheet, {r, true}, lift);
+    for (int c = 0; c + 1 < sheet.columns(); c += kFiner * kCheck) addStripe(sheet, {c, false}, lift);
+    if (lift < 0.0f)
+      for (size_t i = 0; i < triangles.size(); i += 3) std::swap(triangles[i], triangles[i + 1]);
+  }
+
+ private:
+  struct Line {
+    int at;      // row or column of the fine grid
+    bool along;  // a row
+  };
+  void addStripe(const SmoothSheet& sheet, const Line& line, float lift) {
+    const int count = line.along ? sheet.columns() : sheet.rows();
+    for (int k = 0; k < count; ++k) {
+      const auto a = static_cast<uint32_t>(points.size()), b = a + 1, c = a + 2, d = a + 3;
+      for (const int side : {0, 1}) {
+        const int row = line.along ? line.at + side : k, column = line.along ? k : line.at + side;
+        points.push_back(sheet.at(row, column) + lift * sheet.normal(row, column));
+      }
+      if (k + 1 == count) continue;
+      if (line.along)
+        triangles.insert(triangles.end(), {a, b, d, a, d, c});
+      else
+        triangles.insert(triangles.end(), {a, c, d, a, d, b});
+    }
+  }
+};
+
 // A link of a sheet from one particle to the next along its row or down its column.
 struct Link {
   int row, column;
   bool along;
-  float strain;
 };
-
-// How it is drawn; no width: not at all.
-Stroke threadStroke(const SheetView& v, const Link& link) {
-  const float heat = std::abs(link.strain) / kShownStrain;
-  if (heat > kPulled) return {heatColor(heat), 1.6f};
-  return {v.check, (link.along ? link.row : link.column) % kCheck == 0 ? 1.0f : 0.0f};
-}
 
 // On both sides of the surface.
 void drawThread(const SmoothSheet& sheet, const Link& link, const Stroke& stroke, Canvas& canvas) {
   int r = kFiner * link.row, c = kFiner * link.column;
   for (int k = 0; k < kFiner; ++k) {
     const int r1 = r + (link.along ? 0 : 1), c1 = c + (link.along ? 1 : 0);
-    const Vec3 from = kSheetLift * sheet.normal(r, c), to = kSheetLift * sheet.normal(r1, c1);
+    const Vec3 from = kThreadLift * sheet.normal(r, c), to = kThreadLift * sheet.normal(r1, c1);
     canvas.line(sheet.at(r, c) + from, sheet.at(r1, c1) + to, stroke);
     canvas.line(sheet.at(r, c) - from, sheet.at(r1, c1) - to, stroke);
     r = r1, c = c1;
@@ -116,15 +145,20 @@ void drawThread(const SmoothSheet& sheet, const Link& link, const Stroke& stroke
 void drawSheet(const ParticleSystem& p, const SheetView& v, Canvas& canvas) {
   const SmoothSheet sheet(p.positions().subspan(v.first), v.columns, v.rows);
   canvas.surface({.points = sheet.points(), .indices = sheet.triangles(), .two_sided = true}, v.paint);
+  for (const float lift : {kCheckLift, -kCheckLift}) {
+    const Check check(sheet, lift);
+    canvas.surface({.points = check.points, .indices = check.triangles}, {v.check, v.paint.finish});
+  }
   const auto columns = static_cast<uint32_t>(v.columns), end = v.first + columns * static_cast<uint32_t>(v.rows);
   for (const ParticleStrand& s : p.strands()) {
     if (s.particles.front() < v.first || s.particles.front() >= end) continue;
     for (size_t k = 0; k + 1 < s.particles.size(); ++k) {
+      const float heat = std::abs(strainOf(p, s, k)) / kShownStrain;
+      if (heat < kPulled) continue;
       const uint32_t from = s.particles[k] - v.first;
       const Link link{static_cast<int>(from / columns), static_cast<int>(from % columns),
-                      s.particles[k + 1] == s.particles[k] + 1, strainOf(p, s, k)};
-      const Stroke stroke = threadStroke(v, link);
-      if (stroke.width > 0.0f) drawThread(sheet, link, stroke, canvas);
+                      s.particles[k + 1] == s.particles[k] + 1};
+      drawThread(sheet, link, {heatColor(heat), 1.6f}, canvas);
     }
   }
 }

@@ -25,7 +25,7 @@ std::vector<SceneEntry> particlePhysicsScenes() {
            .name = "hair",
            .shows = "roots follow the shaken head exactly, strands lag behind and keep their curl",
            .camera = {.target = Vec3(0.0f, 1.8f, 0.0f), .distance = 4.0f, .yaw_deg = 30.0f, .pitch_deg = 6.0f},
-           .frames = {0, 75, 150},
+           .frames = {30, 60, 120},
            .world = {},
            .make = makeHair},
           {.sample = "9_particle_physics",

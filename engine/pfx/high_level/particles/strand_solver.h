@@ -32,8 +32,7 @@ class StrandSolver {
     float compliance;
   };
   void weigh(const Range& strand, const ParticleSpan& particles);
-  float linearize(const Range& strand, std::span<const Vec3> position);  // largest error of a link, as a share
-  float projectOnce(const Range& strand, const ParticleSpan& particles);  // what linearize() found
+  void linearize(const Range& strand, std::span<const Vec3> position);
   void apply(const Range& strand, const ParticleSpan& particles, std::span<const float> impulse) const;
 
   std::vector<Range> strands_;
