@@ -1,7 +1,4 @@
 // Sample 2_stable carries pairs, contacts and impulses from step to step.
-#include <algorithm>
-
-#include "pfx/util/debug_render/palette.h"
 #include "samples/registry.h"
 #include "samples/shared/basic_scenes.h"
 #include "samples/shared/builders.h"
@@ -15,7 +12,6 @@ using namespace pfx;
 // The same tower twice: this world remembers, a second one beside it does not. Boxes redden as they drift.
 struct SideBySide final : Scene {
   static constexpr TowerSize kSize{.layers = 8, .boxes = 18};
-  static constexpr float kReddest = 0.6f;  // m
 
   void build(World& world) override {
     buildTower(world);
@@ -52,14 +48,7 @@ struct SideBySide final : Scene {
   }
 
   void drawTower(const World& world, const Place& place, Canvas& canvas) const {
-    // A hair larger than the bodies, which it hides.
-    const Geometry brick = Box{Vec3::Constant(1.002f * kSize.half_extent)};
-    for (uint32_t i = 1; i < world.states().size(); ++i) {
-      const float share = std::min(drift_.of(world, i) / kReddest, 1.0f);
-      const Color color = hsvColor(0.11f * (1.0f - share), 0.3f + 0.5f * share, 0.88f);
-      const RigidState& s = world.states()[i];
-      canvas.solid(brick, {s.position + place.offset, s.orientation}, {color, Finish::Soft});
-    }
+    drawDrift(world, drift_, place.offset, canvas);
     const float top = 2.0f * static_cast<float>(kSize.layers) * kSize.half_extent;
     canvas.label(place.offset + Vec3(0.0f, top + 3.0f, 0.0f), place.title);
     canvas.label(place.offset + Vec3(0.0f, top + 1.6f, 0.0f), "drift " + millimetres(drift_.largest(world)));

@@ -26,6 +26,7 @@ class DeformScene : public Scene {
     const LargeMesh* mesh = world.keep(makeSheet());
     world.addBody(
         {.name = "surface", .motion_type = MotionType::Fixed, .shapes = {shape(mesh)}, .friction = 0.7f});
+    world.deformMesh(mesh, vertices_, 0.0f);  // as it stands: a mesh that is going to move
     addBodies(world);
   }
 
@@ -55,6 +56,18 @@ class DeformScene : public Scene {
             {"triangles", "", 2.0 * kCells * kCells}};
   }
 
+  // Every other line of vertices, so that one sees the surface move.
+  void draw(const World&, Canvas& canvas) const override {
+    constexpr int kEvery = 2;
+    constexpr Stroke kThread{0xffa9a294u, 1.0f};
+    const Vec3 lift(0.0f, 0.012f, 0.0f);
+    for (int i = 0; i <= kCells; i += kEvery)
+      for (int k = 0; k < kCells; ++k) {
+        canvas.line(vertex(i, k) + lift, vertex(i, k + 1) + lift, kThread);
+        canvas.line(vertex(k, i) + lift, vertex(k + 1, i) + lift, kThread);
+      }
+  }
+
  protected:
   virtual float height(float x, float z, float t) const = 0;
   virtual void addBodies(World& world) = 0;
@@ -76,8 +89,11 @@ class DeformScene : public Scene {
   }
 
  private:
+  static constexpr int kSide = kCells + 1;
+
+  const Vec3& vertex(int i, int k) const { return vertices_[static_cast<size_t>(i * kSide + k)]; }
+
   LargeMesh makeSheet() {
-    constexpr int kSide = kCells + 1;
     vertices_.resize(static_cast<size_t>(kSide * kSide));
     std::vector<uint32_t> indices;
     for (int i = 0; i < kCells; ++i)

@@ -16,27 +16,27 @@ class Curtain final : public ParticleScene {
  public:
   void build(World& world) override {
     addGround(world);
-    const Vec3 ends(1.75f, 3.6f, 0.0f);
+    const Vec3 ball_at(0.4f, 2.6f, 2.9f), hook_at(0.4f, 6.0f, 0.3f), ends(1.75f, 3.6f, 0.0f);
     const BodyId rail = world.addBody({.name = "rail",
                                        .pose = {.position = Vec3(0, ends.y(), 0)},
                                        .motion_type = MotionType::Fixed,
                                        .shapes = {shape(Cylinder{ends.x() + 0.15f, 0.035f})},
                                        .filter_self = 2});
     const BodyId ball = world.addBody({.name = "ball",
-                                       .pose = {.position = Vec3(0.4f, 1.55f, 2.6f)},
+                                       .pose = {.position = ball_at},
                                        .linear_velocity = Vec3(0, 0, -1.5f),
                                        .shapes = {shape(Sphere{0.38f})},
                                        .mass = 2.0f,
                                        .friction = 0.4f});
     const BodyId hook = world.addBody({.name = "hook",
-                                       .pose = {.position = Vec3(0.4f, 5.2f, 0.6f)},
+                                       .pose = {.position = hook_at},
                                        .motion_type = MotionType::Fixed,
                                        .shapes = {shape(Box{Vec3::Constant(0.06f)})}});
     world.addJoint({.name = "cord",
                     .body_a = hook,
                     .body_b = ball,
-                    .params = DistanceJointParams{.anchor_point_a = Vec3(0.4f, 5.2f, 0.6f),
-                                                  .anchor_point_b = Vec3(0.4f, 1.55f, 2.6f)}});
+                    .params = DistanceJointParams{.anchor_point_a = hook_at,
+                                                  .anchor_point_b = ball_at}});
     ParticleDef def{.name = "curtain"};
     def.settings.radius = 0.03f;
     def.settings.filter_target = 1;
@@ -57,7 +57,7 @@ class Curtain final : public ParticleScene {
   }
 
   void draw(const World& world, Canvas& canvas) const override {
-    drawSheet(particles(world), {kSide, kSide, 0, {0xffe6ddc8u, Finish::Matte}}, canvas);
+    drawSheet(particles(world), {.columns = kSide, .rows = kSide, .paint = {0xffd9c08cu, Finish::Soft}, .check = 0xffa98a4eu}, canvas);
     canvas.line(world.states()[3].position, world.states()[2].position, {0xff404852u, 2.0f});
   }
 
@@ -99,10 +99,10 @@ class Drape final : public ParticleScene {
                    .mass = 8.0f,
                    .angular_damping = 1.0f});
     ParticleDef def{.name = "sheet"};
-    def.settings.radius = 0.03f;
-    addCloth(def, {.corner = Vec3(-1.8f, 1.9f, -1.8f),
-                   .along = Vec3(3.6f, 0, 0.3f),
-                   .across = Vec3(-0.3f, 0, 3.6f),
+    def.settings.radius = 0.045f;  // as far as a corner may come out between particles
+    addCloth(def, {.corner = Vec3(-1.8f, 1.9f, -2.0f),
+                   .along = Vec3(3.9f, 0, 0.3f),
+                   .across = Vec3(-0.3f, 0, 3.9f),
                    .columns = kSide,
                    .rows = kSide,
                    .mass = 1.5f,
@@ -112,7 +112,7 @@ class Drape final : public ParticleScene {
   }
 
   void draw(const World& world, Canvas& canvas) const override {
-    drawSheet(particles(world), {kSide, kSide, 0, {0xffe2d3d8u, Finish::Matte}}, canvas);
+    drawSheet(particles(world), {.columns = kSide, .rows = kSide, .paint = {0xffc2566au, Finish::Soft}, .check = 0xffe6b8b4u}, canvas);
   }
 };
 

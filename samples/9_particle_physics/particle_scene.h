@@ -15,23 +15,26 @@ inline constexpr float kShownStrain = 0.005f;
 // Blue over green and yellow to red for 0 .. 1.
 pfx::Color heatColor(float heat);
 
-// A sheet of particles as a surface, and its threads in the colour of their strain.
+// A sheet of particles as a lit surface with a check woven into it; threads that are pulled by more than a tenth of what
+// is drawn red show the colour of their strain.
 struct SheetView {
   int columns, rows;
   uint32_t first = 0;
   Paint paint = {};
-  bool strain = true;
+  pfx::Color check = 0xff8a8377u;
 };
 void drawSheet(const pfx::ParticleSystem& particles, const SheetView& sheet, Canvas& canvas);
 
-// Links of strands as round rods of a radius (m). With strain: in its colour.
+// Links of a strand as round rods.
 struct ThreadView {
-  float radius = 0.01f;
+  float radius = 0.01f;  // m, of the first link
+  float tip = 1.0f;      // radius of the last one, as a share of it
   Paint paint = {};
-  bool strain = false;
+  bool strain = false;   // in its colour
 };
 void drawStrand(const pfx::ParticleSystem& particles, const pfx::ParticleStrand& strand, const ThreadView& view,
                 Canvas& canvas);
+void drawRods(std::span<const pfx::Vec3> path, const ThreadView& view, Canvas& canvas);  // likewise, without strain
 
 // A scene of one particle system whose settings can be changed while it runs.
 class ParticleScene : public Scene {

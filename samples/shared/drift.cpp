@@ -3,6 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pfx/util/debug_render/palette.h"
+
 namespace samples {
 
 using namespace pfx;
@@ -19,6 +21,19 @@ float Drift::largest(const World& world) const {
   float most = 0.0f;
   for (uint32_t i = 0; i < start_.size(); ++i) most = std::max(most, of(world, first_ + i));
   return most;
+}
+
+void drawDrift(const World& world, const Drift& drift, const Vec3& offset, Canvas& canvas) {
+  constexpr float kReddest = 0.6f;   // m
+  constexpr float kCover = 1.002f;  // a hair larger than the boxes, which it hides
+  for (uint32_t i = drift.firstBody(); i < world.states().size(); ++i) {
+    const Box* box = std::get_if<Box>(&world.collidables()[i].shapes()[0].geometry);
+    if (box == nullptr || !isDynamic(world.states()[i].motion_type)) continue;
+    const float share = std::min(drift.of(world, i) / kReddest, 1.0f);
+    const Color color = hsvColor(0.11f * (1.0f - share), 0.3f + 0.5f * share, 0.88f);
+    const RigidState& s = world.states()[i];
+    canvas.solid(Box{kCover * box->half_extent}, {s.position + offset, s.orientation}, {color, Finish::Soft});
+  }
 }
 
 std::string millimetres(float metres) {

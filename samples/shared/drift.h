@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "pfx/high_level/world/world.h"
+#include "samples/canvas.h"
 
 namespace samples {
 
@@ -16,11 +17,15 @@ class Drift {
 
   float of(const pfx::World& world, uint32_t body) const;  // m, of a watched body
   float largest(const pfx::World& world) const;            // m
+  uint32_t firstBody() const { return first_; }
 
  private:
   uint32_t first_ = 0;
   std::vector<pfx::Vec3> start_;
 };
+
+// Paints boxes (bodies of one box) over by how far they have come, from cream to red; `offset` (m) moves the picture.
+void drawDrift(const pfx::World& world, const Drift& drift, const pfx::Vec3& offset, Canvas& canvas);
 
 // "12 mm", or "0.4 mm" for a small one.
 std::string millimetres(float metres);

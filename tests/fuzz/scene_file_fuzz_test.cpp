@@ -5,6 +5,7 @@
 #include <regex>
 #include <sstream>
 
+#include "pfx/high_level/particles/particle_builder.h"
 #include "pfx/high_level/scene_file/scene_file.h"
 #include "pfx/high_level/world/snapshot.h"
 #include "samples/scene.h"
@@ -14,7 +15,22 @@ namespace {
 
 using namespace pfx;
 
+// A small one of each kind of particles: cloth on a body, a rope, a soft box.
+World particleWorld() {
+  World world;
+  const BodyId post = world.addBody({.name = "post", .motion_type = MotionType::Fixed, .shapes = {Shape{Box{}, {}}}});
+  ParticleDef def{.name = "soft things"};
+  addCloth(def, {.corner = Vec3(-0.5f, 2.0f, 0.0f), .columns = 4, .rows = 3, .bending_stiffness = 1e-3f});
+  addRope(def, {.from = Vec3(2, 2, 0), .to = Vec3(3, 2, 0), .particles = 5, .bending_stiffness = 1e-3f});
+  addSoftBox(def, {.center = Vec3(-3, 2, 0), .half_extent = Vec3::Constant(0.3f), .cells = {1, 2, 1}});
+  def.anchors.push_back({.particle = 0, .body = post.index, .local = def.positions[0]});
+  def.masses.back() = 0.0f;
+  world.addParticles(def);
+  return world;
+}
+
 World sampleWorld(std::string_view target) {
+  if (target == "particles") return particleWorld();
   const samples::SceneEntry& entry = *samples::findScenes(target).front();
   World world(entry.world);
   entry.make()->build(world);
@@ -109,7 +125,7 @@ TEST_P(DamagedFile, OfASnapshotIsAlwaysRefusedWithItsSection) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, DamagedFile,
-                         testing::Values("1_simple/primitives", "3_sleep/landscape", "11_xml_import/example"),
+                         testing::Values("1_simple/primitives", "3_sleep/landscape", "11_xml_import/example", "particles"),
                          [](const auto& scene) {
                            std::string name = scene.param;
                            for (char& c : name)

@@ -2,8 +2,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
-#include <cmath>
-#include <functional>
+#include <cstdio>
 
 #include "samples/shared/builders.h"
 #include "tests/files/scene_run.h"
@@ -73,23 +72,12 @@ TEST(SimpleAndStable, OnlyTheSecondRemembersItsContacts) {
   EXPECT_GT(rememberedImpulses(Pipeline::Stable), 36.0 * 9.8 / 240.0 * 0.9);
 }
 
-// The sphere rolls on: its spin is damped at 1/s, of which rolling makes 2/7 of its speed, v' = -2/7 v.
-TEST(Stable, PrimitivesRestAfterTenSecondsExceptTheSphereThatRollsToAHalt) {
+TEST(Stable, PrimitivesRestOnTheGroundAfterTenSeconds) {
   RunningScene scene = sceneOf("2_stable/primitives");
   ASSERT_EQ(scene.world.counts().awake, 6u);
-  const auto speed = [&](bool of_sphere) {
-    float most = 0.0f;
-    for (uint32_t i = 0; i < scene.world.states().size(); ++i)
-      if ((scene.world.name(i) == "sphere") == of_sphere)
-        most = std::max(most, scene.world.states()[i].linear_velocity.norm());
-    return most;
-  };
   run(scene, 600);
-  EXPECT_LT(speed(false), 0.01f);
+  EXPECT_LT(fastest(scene.world), 0.01f);
   EXPECT_GT(lowest(scene.world), 0.45f);
-  const float before = speed(true);
-  run(scene, 300);
-  EXPECT_NEAR(speed(true) / before, std::exp(-2.0f / 7.0f * 5.0f), 0.01f);
 }
 
 TEST(SimpleAndStable, HangingBoxesStayOnTheirJointsForTwentySeconds) {
@@ -146,13 +134,14 @@ TEST_P(SleepScenes, AllBodiesSleepAfterTwentySecondsAndCostNothing) {
   run(scene, 1120);
   EXPECT_EQ(scene.world.counts().awake, 0u);
   for (int i = 0; i < 20; ++i) scene.step(), asleep = std::min(asleep, stageMs(scene.world));
+  std::printf("3_sleep/%s: %.1f us a step awake, %.1f us asleep\n", GetParam(), 1e3 * awake, 1e3 * asleep);
   RecordProperty("awake_us", std::to_string(1e3 * awake));
   RecordProperty("asleep_us", std::to_string(1e3 * asleep));
   EXPECT_LT(asleep, 0.2 * awake);
 }
 
 INSTANTIATE_TEST_SUITE_P(All, SleepScenes,
-                         testing::Values("tower", "pyramid"),
+                         testing::Values("primitives", "joints", "tower", "pyramid", "walls", "landscape"),
                          [](const auto& p) { return std::string(p.param); });
 
 TEST(Sleep, TheBallWakesTheWallThatItHitsAndNoOther) {

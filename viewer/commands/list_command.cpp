@@ -1,32 +1,19 @@
 // vitrine list: samples, scenes, and the stages that each one runs.
-#include <algorithm>
 #include <cstdio>
 #include <nlohmann/json.hpp>
 
+#include "pfx/high_level/pipeline/possible_stages.h"
 #include "viewer/commands/commands.h"
 #include "viewer/run/scene_run.h"
 
 namespace viewer {
 namespace {
 
-// A world reports the stages of its last step, so that a scene has to run a little to show all: one second,
-// in which what falls has landed; scenes of thousands of bodies, where everything touches from the start, run for less.
-// Stages that appear later are put behind the one that runs before them.
-std::vector<std::string> stagesOf(const SceneSpec& spec) {
-  constexpr uint32_t kBodySteps = 6000;
+// The stages that the scene can enter: it is built and its script prepares the first step, which is not made.
+std::vector<std::string_view> stagesOf(const SceneSpec& spec) {
   SceneRun run(spec);
-  std::vector<std::string> names;
-  const uint32_t steps = std::clamp(kBodySteps / (run.world().counts().bodies + 1), 2u, 60u);
-  for (uint32_t i = 0; i < steps; ++i) {
-    run.step();
-    auto place = names.begin();
-    for (std::string_view stage : run.world().stages()) {
-      auto known = std::find(names.begin(), names.end(), stage);
-      if (known == names.end()) known = names.insert(place, std::string(stage));
-      place = known + 1;
-    }
-  }
-  return names;
+  run.scene().beforeStep(run.world(), run.settings().dt);
+  return pfx::possibleStages(run.world());
 }
 
 int listJson(std::span<const SceneSpec> scenes) {
@@ -48,8 +35,10 @@ int listText(std::span<const SceneSpec> scenes) {
     sample = s.sample;
     std::printf("  %-24s %s\n  %-24s stages:", s.name.c_str(), s.shows.c_str(), "");
     const char* separator = " ";
-    for (const std::string& stage : stagesOf(s))
-      std::printf("%s%s", separator, stage.c_str()), separator = ", ";
+    for (std::string_view stage : stagesOf(s)) {
+      std::printf("%s%.*s", separator, static_cast<int>(stage.size()), stage.data());
+      separator = ", ";
+    }
     std::printf("\n");
   }
   return 0;

@@ -1,5 +1,8 @@
 #include "viewer/run/list_canvas.h"
 
+#include <utility>
+#include <vector>
+
 #include "pfx/util/debug_render/geometry_key.h"
 #include "pfx/util/state_hash/state_hash.h"
 #include "viewer/draw_list/recorder.h"
@@ -29,16 +32,20 @@ void ListCanvas::solid(const pfx::Geometry& geometry, const pfx::Transform& pose
   list_.add(place.mesh, {pose.position, pose.orientation, place.scale, paint.color, uint32_t(paint.finish), 0});
 }
 
-// A sheet is drawn as two surfaces, back to back, since only front faces are drawn.
+// A sheet is drawn as two surfaces, back to back, since only front faces are drawn; two meshes, so that each has the
+// normals and feature edges of a surface.
 void ListCanvas::surface(const samples::Surface& surface, const samples::Paint& paint) {
-  std::vector<uint32_t> indices(surface.indices.begin(), surface.indices.end());
-  if (surface.two_sided)
-    for (size_t i = 0; i + 3 <= surface.indices.size(); i += 3)
-      indices.insert(indices.end(), {surface.indices[i], surface.indices[i + 2], surface.indices[i + 1]});
-  const uint64_t key =
-      pfx::hashBytes(std::as_bytes(surface.points)) ^ pfx::hashBytes(std::as_bytes(std::span(indices)));
-  list_.defineTransientMesh(key, [&] { return makeMesh(surface.points, indices); });
-  list_.add(key, {.color = paint.color, .finish = uint32_t(paint.finish)});
+  const uint64_t points = pfx::hashBytes(std::as_bytes(surface.points));
+  const auto add = [&](std::span<const uint32_t> indices) {
+    const uint64_t key = points ^ pfx::hashBytes(std::as_bytes(indices));
+    list_.defineTransientMesh(key, [&] { return makeMesh(surface.points, indices); });
+    list_.add(key, {.color = paint.color, .finish = uint32_t(paint.finish)});
+  };
+  add(surface.indices);
+  if (!surface.two_sided) return;
+  std::vector<uint32_t> back(surface.indices.begin(), surface.indices.end());
+  for (size_t i = 0; i + 3 <= back.size(); i += 3) std::swap(back[i + 1], back[i + 2]);
+  add(back);
 }
 
 }  // namespace viewer

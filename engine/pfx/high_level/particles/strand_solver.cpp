@@ -18,6 +18,11 @@ constexpr float kMaxTurn = 0.5f;
 // and more.
 constexpr float kMostLent = 1000.0f;
 
+// A Newton step from links that are off by less than this share of their length leaves an error of its square. Where a
+// whip turns them farther in one sub-step there are more steps, up to a bound.
+constexpr float kFarOff = 0.01f;
+constexpr int kMostSteps = 12;
+
 }  // namespace
 
 void StrandSolver::assign(std::span<const ParticleStrand> strands) {
@@ -85,26 +90,31 @@ void StrandSolver::warmStart(uint32_t first, uint32_t last, const ParticleSpan& 
 // Thomas algorithm: upper_ is the eliminated super-diagonal, change_ first the eliminated right side, then the result.
 void StrandSolver::project(uint32_t first, uint32_t last, const ParticleSpan& p) {
   for (const Range& s : std::span(strands_).subspan(first, last - first)) {
-    linearize(s, p.position);
     const float softness = s.compliance * p.inverse_h2;
-    float below = 0.0f;  // coupling with the link before
     const uint32_t end = s.first + s.count - 1;
     const bool is_held = p.inverse_mass[particle_[s.first]] == 0.0f && p.inverse_mass[particle_[end]] == 0.0f;
     const float margin = 1.0f + (is_held ? kHeldBothEnds : kOtherwise);
-    for (uint32_t k = s.first; k < end; ++k) {
-      const float w0 = inverse_mass_[k], w1 = inverse_mass_[k + 1];
-      const float diagonal = (w0 + w1) * margin + softness;
-      const float pivot = diagonal - (k > s.first ? below * upper_[k - 1] : 0.0f);
-      const float inverse = pivot > 0.0f ? 1.0f / pivot : 0.0f;
-      const float above = k + 1 < end ? -w1 * direction_[k].dot(direction_[k + 1]) : 0.0f;
-      upper_[k] = above * inverse;
-      const float right = -(error_[k] + softness * impulse_[k]);
-      change_[k] = (right - (k > s.first ? below * change_[k - 1] : 0.0f)) * inverse;
-      below = above;
+    bool is_far = true;
+    for (int step = 0; is_far && step < kMostSteps; ++step) {
+      linearize(s, p.position);
+      is_far = false;
+      float below = 0.0f;  // coupling with the link before
+      for (uint32_t k = s.first; k < end; ++k) {
+        is_far = is_far || std::abs(error_[k]) > kFarOff * length_[k];
+        const float w0 = inverse_mass_[k], w1 = inverse_mass_[k + 1];
+        const float diagonal = (w0 + w1) * margin + softness;
+        const float pivot = diagonal - (k > s.first ? below * upper_[k - 1] : 0.0f);
+        const float inverse = pivot > 0.0f ? 1.0f / pivot : 0.0f;
+        const float above = k + 1 < end ? -w1 * direction_[k].dot(direction_[k + 1]) : 0.0f;
+        upper_[k] = above * inverse;
+        const float right = -(error_[k] + softness * impulse_[k]);
+        change_[k] = (right - (k > s.first ? below * change_[k - 1] : 0.0f)) * inverse;
+        below = above;
+      }
+      for (uint32_t k = end - 1; k > s.first; --k) change_[k - 1] -= upper_[k - 1] * change_[k];
+      for (uint32_t k = s.first; k < end; ++k) impulse_[k] += change_[k];
+      apply(s, p, change_);
     }
-    for (uint32_t k = end - 1; k > s.first; --k) change_[k - 1] -= upper_[k - 1] * change_[k];
-    for (uint32_t k = s.first; k < end; ++k) impulse_[k] += change_[k];
-    apply(s, p, change_);
   }
 }
 
