@@ -110,6 +110,31 @@ TEST(CompatRows, C10_14WeightIsTakenAwayWhileTheJointCarries) {
   EXPECT_NEAR(scene.states[1].getLinearVelocity()[1] - before, -9.8f * 0.016f, 1e-4f);
 }
 
+// Damping takes its share of the motion, not of the force: what hangs on a damped hinge still falls.
+TEST(CompatRows, C10_09ADampedHingeFallsToItsTerminalVelocity) {
+  PfxFloat angle[3], rate[3];
+  for (int k = 0; k < 3; ++k) {
+    Scene scene;
+    scene.addBox(PfxVector3(0.2f), PfxVector3(0.0f), kPfxMotionTypeFixed);
+    scene.addBox(PfxVector3(0.2f), PfxVector3(2, 0, 0), kPfxMotionTypeActive);
+    scene.states[1].setAngularDamping(1.0f);
+    scene.joints.emplace_back();
+    PfxHingeJointInitParam param;
+    param.axis = PfxVector3(0, 0, 1), param.damping = k == 0 ? 0.0f : k == 1 ? 0.1f : 0.5f;
+    ASSERT_EQ(pfxInitializeHingeJoint(scene.joints[0], scene.states[0], scene.states[1], param), SCE_PFX_OK);
+    for (int i = 0; i < 10; ++i) scene.step(0.01f, 5);
+    angle[k] = -std::atan2(scene.states[1].getPosition()[1], scene.states[1].getPosition()[0]);
+    rate[k] = -scene.states[1].getAngularVelocity()[2];
+  }
+  // d w / dt = g r / (r^2 + I / m) at a nearly level arm; damped by a share d in each step, w tends to (1 - d) / d of a step's gain.
+  const PfxFloat gain = 9.8f * 2.0f / (4.0f + 0.08f / 3.0f) * 0.01f;
+  EXPECT_NEAR(rate[0], 10.0f * gain, 0.02f * 10.0f * gain);
+  EXPECT_NEAR(rate[1], gain * 0.9f / 0.1f * (1.0f - std::pow(0.9f, 10.0f)), 0.02f * gain * 9.0f);
+  EXPECT_NEAR(rate[2], gain, 0.02f * gain);
+  EXPECT_GT(angle[0], angle[1]);
+  EXPECT_GT(angle[1], angle[2]);
+}
+
 TEST(CompatRows, C8_28EverythingOfAThousandBodiesIsDrawnInTwoMilliseconds) {
   Scene scene;
   for (int i = 0; i < 1000; ++i)

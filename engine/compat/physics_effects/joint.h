@@ -28,6 +28,7 @@ struct PfxJointRow {
   PfxFloat m_rhs, m_jacDiagInv, m_lowerLimit, m_upperLimit;
   PfxFloat m_accumImpulse;
   PfxFloat m_weight;
+  PfxFloat m_softness;
 };
 
 // One axis: m and N s for translations, rad and N m s for rotations.

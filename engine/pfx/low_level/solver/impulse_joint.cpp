@@ -9,9 +9,9 @@ namespace {
 using Map3 = Eigen::Map<Vec3>;
 using ConstMap3 = Eigen::Map<const Vec3>;
 
-// Rate that the axis is to reach, and between which impulses.
+// Rate that the axis is to reach, between which impulses, and the share of the rate that damping leaves over the one it takes.
 struct AxisGoal {
-  float rate, lower, upper;
+  float rate, lower, upper, left = 0.0f;
 };
 AxisGoal axisGoal(const ImpulseJointInput& in) {
   const AxisConstraint& axis = in.axis;
@@ -22,7 +22,7 @@ AxisGoal axisGoal(const ImpulseJointInput& in) {
   if (limited && x < axis.lower) return {-axis.bias * (x - axis.lower) / h, 0.0f, most};
   const float end = x + in.rate * h;
   const float damping = std::clamp(axis.damping, 0.0f, 1.0f);
-  if (damping > 0.0f && (!limited || (end >= axis.lower && end <= axis.upper))) return {(1.0f - damping) * in.rate, -most, most};
+  if (damping > 0.0f && (!limited || (end >= axis.lower && end <= axis.upper))) return {0.0f, -most, most, (1.0f - damping) / damping};
   if (!limited) return {0.0f, 0.0f, 0.0f};
   // Inside the range the axis may come as near to the limit that it moves towards as there is way left.
   const bool up = axis.upper - end < end - axis.lower;
@@ -73,8 +73,9 @@ class BoundedRows {
       axis_[count_] = i;
       lower_[count_] = static_cast<double>(row.lower) - row.impulse;
       upper_[count_] = static_cast<double>(row.upper) - row.impulse;
-      want_[count_] = row.rhs * diagonal - rateOf(pair, row);
+      want_[count_] = row.rhs * diagonal - rateOf(pair, row) - static_cast<double>(row.softness) * row.impulse;
       for (int k = 0; k <= count_; ++k) a_[count_][k] = a_[k][count_] = joint.coupling[packed(i, axis_[k])];
+      a_[count_][count_] += row.softness;
       ++count_;
     }
   }
@@ -169,9 +170,36 @@ void setupImpulseJointRow(const ImpulseJointInput& in, ImpulsePair p, ImpulseJoi
   row.inv_diag = k > 0.0 ? static_cast<float>(1.0 / k) : 0.0f;
   row.rhs = (goal.rate - in.rate) * row.inv_diag;
   row.lower = goal.lower, row.upper = goal.upper;
+  row.softness = goal.left;
   row.weight = std::clamp(in.axis.weight, 0.0f, 1.0f);
   row.impulse = in.warm_start && row.weight > 0.0f ? std::clamp(row.impulse, row.lower, row.upper) : 0.0f;
 }
+
+namespace {
+
+// Rate that a unit impulse of a row gives it while the rows that hold both ways hold: the last pivot of L D L^T.
+double responseBesideHeldRows(const ImpulseJoint& joint, int axis) {
+  int order[kNumJointAxes], n = 0;
+  for (int i = 0; i < kNumJointAxes; ++i) {
+    const ImpulseJointRow& row = *joint.row[i];
+    if (i != axis && row.lower < 0.0f && row.upper > 0.0f && row.softness == 0.0f && row.weight > 0.0f) order[n++] = i;
+  }
+  order[n++] = axis;
+  double l[kNumJointAxes][kNumJointAxes], d[kNumJointAxes];
+  for (int i = 0; i < n; ++i) {
+    const double whole = d[i] = joint.coupling[packed(order[i], order[i])];
+    for (int k = 0; k < i; ++k) {
+      double s = joint.coupling[packed(order[i], order[k])];
+      for (int q = 0; q < k; ++q) s -= l[i][q] * d[q] * l[k][q];
+      l[i][k] = d[k] > 0.0 ? s / d[k] : 0.0;
+      d[i] -= l[i][k] * s;
+    }
+    if (!(d[i] > 1e-10 * whole)) d[i] = 0.0;
+  }
+  return d[n - 1];
+}
+
+}  // namespace
 
 void coupleImpulseRows(ImpulsePair pair, const ImpulseJoint& joint) {
   for (int i = 0; i < kNumJointAxes; ++i) {
@@ -182,6 +210,10 @@ void coupleImpulseRows(ImpulsePair pair, const ImpulseJoint& joint) {
       joint.coupling[packed(i, k)] = rate;
     }
   }
+  float softness[kNumJointAxes];
+  for (int i = 0; i < kNumJointAxes; ++i)
+    softness[i] = joint.row[i]->softness > 0.0f ? joint.row[i]->softness * static_cast<float>(responseBesideHeldRows(joint, i)) : 0.0f;
+  for (int i = 0; i < kNumJointAxes; ++i) joint.row[i]->softness = softness[i];
 }
 
 void warmStart(ImpulsePair pair, const ImpulseJoint& joint) {

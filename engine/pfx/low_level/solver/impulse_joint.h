@@ -17,6 +17,7 @@ struct ImpulseJointRow {
   float lower, upper;  // N s
   float impulse;       // N s, gathered; the start of the next step
   float weight;        // 0 .. 1, share of each change of the impulse that is applied
+  float softness;      // 1/kg, rate that the row leaves per impulse that it applies: damping
 };
 
 inline constexpr int kNumImpulseCouplings = kNumJointAxes * (kNumJointAxes + 1) / 2;
@@ -40,7 +41,7 @@ struct ImpulseJointInput {
 // Sets up one row; its impulse is kept as the start where the axis says so.
 void setupImpulseJointRow(const ImpulseJointInput& input, ImpulsePair pair, ImpulseJointRow& row);
 
-// Fills `coupling` when all six rows are set up.
+// Fills `coupling`, and the softness of damped rows, when all six rows are set up.
 void coupleImpulseRows(ImpulsePair pair, const ImpulseJoint& joint);
 
 // Applies the impulses gathered in the step before.
