@@ -39,6 +39,21 @@ TEST(UiInput, APressAndReleaseInOneFrameAreBothSeen) {
   EXPECT_FALSE(input.waiting());
 }
 
+TEST(UiInput, AClickIsSeenWhereItWasMadeThoughTheMouseHasMovedOn) {
+  UiInput input;
+  WindowInput window;
+  window.buttons = {{0, true, 10, 20}, {0, false, 10, 20}};
+  window.mouse_x = 90, window.mouse_y = 80;
+  input.add(window);
+  const UiInput::Frame press = input.next();
+  EXPECT_TRUE(press.held[0]);
+  EXPECT_EQ(press.mouse_x, 10);
+  const UiInput::Frame release = input.next();
+  EXPECT_FALSE(release.held[0]);
+  EXPECT_EQ(release.mouse_y, 20);
+  EXPECT_EQ(input.next().mouse_x, 90);
+}
+
 TEST(UiInput, ALostFocusReleasesEverything) {
   UiInput input;
   WindowInput window;
