@@ -1,6 +1,7 @@
 // The browser without its window: keys, input latching, search, settings, and the session with its past.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
@@ -137,6 +138,23 @@ TEST_F(SessionTest, SubStepsChangeWhileItRunsAndSteppingBackKnowsIt) {
   unchanged.load(findScene(scenes, "2_stable/primitives"));
   unchanged.stepForward(150);
   EXPECT_NE(unchanged.world().stateHash(), at_150);
+}
+
+TEST(SessionCosts, OfStagesThatAStepDidNotNeedAreZero) {
+  Session session;
+  const std::vector<SceneSpec> scenes = allScenes();
+  session.load(findScene(scenes, "2_stable/primitives"));
+  session.stepForward(int(Session::kRecent));
+  bool some_rested = false;
+  float sum = 0.0f;
+  for (const StageCost& cost : session.costs()) {
+    ASSERT_EQ(cost.recent.size(), session.totals().size()) << cost.name;
+    const auto [least, most] = std::minmax_element(cost.recent.begin(), cost.recent.end());
+    some_rested = some_rested || (*least == 0.0f && *most > 0.0f);
+    sum += cost.recent.back();
+  }
+  EXPECT_TRUE(some_rested) << "nothing touches at first";
+  EXPECT_NEAR(sum, session.totals().back(), 1e-4f);
 }
 
 TEST_F(SessionTest, SteppingBackShowsEarlierPosesAndForwardAgainTheSameFuture) {

@@ -78,13 +78,18 @@ void Session::open(const Recording& recording) {
 bool Session::isAllInWorld() const { return dynamic_cast<const samples::AllInWorld*>(&scene()) != nullptr; }
 
 void Session::measure() {
+  const auto stages = world().stageTimes();
+  for (const pfx::StageTime& stage : stages)
+    if (std::none_of(costs_.begin(), costs_.end(), [&](const StageCost& c) { return c.name == stage.name; }))
+      costs_.push_back({stage.name, std::vector<float>(totals_.size(), 0.0f)});
+  // A stage that a step did not need cost nothing in it.
   double total = 0.0;
-  for (const pfx::StageTime& stage : world().stageTimes()) {
-    total += stage.milliseconds;
-    auto found =
-        std::find_if(costs_.begin(), costs_.end(), [&](const StageCost& c) { return c.name == stage.name; });
-    if (found == costs_.end()) found = costs_.insert(costs_.end(), StageCost{stage.name, {}});
-    push(found->recent, stage.milliseconds);
+  for (StageCost& cost : costs_) {
+    double now = 0.0;
+    for (const pfx::StageTime& stage : stages)
+      if (cost.name == stage.name) now += stage.milliseconds;
+    push(cost.recent, now);
+    total += now;
   }
   push(totals_, total);
   figures_ = computeFigures(world());

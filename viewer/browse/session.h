@@ -18,7 +18,7 @@ namespace viewer {
 // The cost of a stage over the last steps.
 struct StageCost {
   std::string name;
-  std::vector<float> recent;  // ms, oldest first, at most Session::kRecent
+  std::vector<float> recent;  // ms, oldest first, as many as there are totals
 };
 
 // A body that the mouse pulls.
