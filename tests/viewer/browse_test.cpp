@@ -140,6 +140,19 @@ TEST_F(SessionTest, SubStepsChangeWhileItRunsAndSteppingBackKnowsIt) {
   EXPECT_NE(unchanged.world().stateHash(), at_150);
 }
 
+TEST_F(SessionTest, ARecordingAfterARestartWithAnotherSolverRepeats) {
+  session.settings.contact_solver = pfx::ContactSolver::Newton;
+  session.restart();
+  session.startRecording();
+  session.stepForward(120);
+  const Recording recording(session.stopRecording(), "newton");
+  Session again;
+  again.open(recording);
+  again.stepForward(120);
+  EXPECT_EQ(again.step(), 120u);
+  EXPECT_FALSE(again.divergence());
+}
+
 TEST(SessionCosts, OfStagesThatAStepDidNotNeedAreZero) {
   Session session;
   const std::vector<SceneSpec> scenes = allScenes();

@@ -39,7 +39,7 @@ void Session::begin(std::unique_ptr<SceneRun> run) {
   grab.reset();
   parameters_ = valuesOf(run_->scene());
   start_dt_ = run_->settings().dt;
-  start_substeps_ = uint32_t(world().def().substeps);
+  start_solver_ = world().solver();
   shown_ = 0;
   rewound_ = false;
   exact_ = true;
@@ -245,11 +245,15 @@ void Session::advance(double seconds) {
 std::vector<uint8_t> Session::stopRecording() {
   const uint64_t from = std::max(recorded_from_.value_or(shown_), history_.first());
   recorded_from_.reset();
+  // The head of a file has no place for other solvers than those of the scene.
+  std::vector<TimedInput> inputs = inputs_;
+  const RunSettings& set = run_->settings();
+  if (set.joint_solver || set.contact_solver) inputs.insert(inputs.begin(), {0, start_solver_});
   RecordingWriter writer({.target = spec().target(),
                           .dt = start_dt_,
-                          .substeps = start_substeps_,
+                          .substeps = uint32_t(start_solver_.substeps),
                           .parameters = parameters_,
-                          .inputs = inputs_});
+                          .inputs = std::move(inputs)});
   for (uint64_t step = from; step <= std::max(from, shown_) && step <= history_.last(); ++step)
     writer.add(history_.frame(step));
   return writer.bytes();
