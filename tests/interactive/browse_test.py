@@ -234,8 +234,8 @@ class BrowserTest(unittest.TestCase):
         return changes
 
     def test_every_overlay_can_be_shown_and_taken_back(self):
-        unknown = subprocess.run([PROGRAM, "render", "2_stable/landscape", "--overlay", "nonsense"], capture_output=True,
-                                 text=True).stderr
+        unknown = subprocess.run([PROGRAM, "render", "2_stable/landscape", "--overlay", "nonsense", "--out", str(self.folder)],
+                                 capture_output=True, text=True).stderr
         names = set(unknown.strip().split("known: ")[-1].split(", "))
         self.assertEqual(len(names), sum(OVERLAY_GROUPS), unknown)
         self.open_scene("2_stable/landscape")

@@ -1,6 +1,7 @@
 // The browser without its window: keys, input latching, search, settings, and the session with its past.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <set>
 
@@ -37,6 +38,21 @@ TEST(UiInput, APressAndReleaseInOneFrameAreBothSeen) {
   EXPECT_FALSE(second.held[0]);
   EXPECT_FALSE(second.isDown('R'));
   EXPECT_FALSE(input.waiting());
+}
+
+TEST(UiInput, AClickIsSeenWhereItWasMadeThoughTheMouseHasMovedOn) {
+  UiInput input;
+  WindowInput window;
+  window.buttons = {{0, true, 10, 20}, {0, false, 10, 20}};
+  window.mouse_x = 90, window.mouse_y = 80;
+  input.add(window);
+  const UiInput::Frame press = input.next();
+  EXPECT_TRUE(press.held[0]);
+  EXPECT_EQ(press.mouse_x, 10);
+  const UiInput::Frame release = input.next();
+  EXPECT_FALSE(release.held[0]);
+  EXPECT_EQ(release.mouse_y, 20);
+  EXPECT_EQ(input.next().mouse_x, 90);
 }
 
 TEST(UiInput, ALostFocusReleasesEverything) {
@@ -122,6 +138,36 @@ TEST_F(SessionTest, SubStepsChangeWhileItRunsAndSteppingBackKnowsIt) {
   unchanged.load(findScene(scenes, "2_stable/primitives"));
   unchanged.stepForward(150);
   EXPECT_NE(unchanged.world().stateHash(), at_150);
+}
+
+TEST_F(SessionTest, ARecordingAfterARestartWithAnotherSolverRepeats) {
+  session.settings.contact_solver = pfx::ContactSolver::Newton;
+  session.restart();
+  session.startRecording();
+  session.stepForward(120);
+  const Recording recording(session.stopRecording(), "newton");
+  Session again;
+  again.open(recording);
+  again.stepForward(120);
+  EXPECT_EQ(again.step(), 120u);
+  EXPECT_FALSE(again.divergence());
+}
+
+TEST(SessionCosts, OfStagesThatAStepDidNotNeedAreZero) {
+  Session session;
+  const std::vector<SceneSpec> scenes = allScenes();
+  session.load(findScene(scenes, "2_stable/primitives"));
+  session.stepForward(int(Session::kRecent));
+  bool some_rested = false;
+  float sum = 0.0f;
+  for (const StageCost& cost : session.costs()) {
+    ASSERT_EQ(cost.recent.size(), session.totals().size()) << cost.name;
+    const auto [least, most] = std::minmax_element(cost.recent.begin(), cost.recent.end());
+    some_rested = some_rested || (*least == 0.0f && *most > 0.0f);
+    sum += cost.recent.back();
+  }
+  EXPECT_TRUE(some_rested) << "nothing touches at first";
+  EXPECT_NEAR(sum, session.totals().back(), 1e-4f);
 }
 
 TEST_F(SessionTest, SteppingBackShowsEarlierPosesAndForwardAgainTheSameFuture) {

@@ -326,7 +326,8 @@ int Browser::run() {
     width_ = std::clamp(input.width, 1, 8192);
     height_ = std::clamp(input.height, 1, 8192);
     const bool busy = !session_.paused || resized || moved || input_.waiting() || !input.characters.empty() ||
-                      input.wheel_y != 0.0f || drag_ != DragMode::None || message_left_ > 0.0f || !pending_.empty() || built_.valid() ||
+                      input.wheel_y != 0.0f || drag_ != DragMode::None || message_left_ > 0.0f || !pending_.empty() ||
+                      built_.valid() ||
                       !input.keys.empty();
     idle = busy ? 0 : idle + 1;
     const auto now = Clock::now();

@@ -39,7 +39,7 @@ void Session::begin(std::unique_ptr<SceneRun> run) {
   grab.reset();
   parameters_ = valuesOf(run_->scene());
   start_dt_ = run_->settings().dt;
-  start_substeps_ = uint32_t(world().def().substeps);
+  start_solver_ = world().solver();
   shown_ = 0;
   rewound_ = false;
   exact_ = true;
@@ -78,13 +78,18 @@ void Session::open(const Recording& recording) {
 bool Session::isAllInWorld() const { return dynamic_cast<const samples::AllInWorld*>(&scene()) != nullptr; }
 
 void Session::measure() {
+  const auto stages = world().stageTimes();
+  for (const pfx::StageTime& stage : stages)
+    if (std::none_of(costs_.begin(), costs_.end(), [&](const StageCost& c) { return c.name == stage.name; }))
+      costs_.push_back({stage.name, std::vector<float>(totals_.size(), 0.0f)});
+  // A stage that a step did not need cost nothing in it.
   double total = 0.0;
-  for (const pfx::StageTime& stage : world().stageTimes()) {
-    total += stage.milliseconds;
-    auto found =
-        std::find_if(costs_.begin(), costs_.end(), [&](const StageCost& c) { return c.name == stage.name; });
-    if (found == costs_.end()) found = costs_.insert(costs_.end(), StageCost{stage.name, {}});
-    push(found->recent, stage.milliseconds);
+  for (StageCost& cost : costs_) {
+    double now = 0.0;
+    for (const pfx::StageTime& stage : stages)
+      if (cost.name == stage.name) now += stage.milliseconds;
+    push(cost.recent, now);
+    total += now;
   }
   push(totals_, total);
   figures_ = computeFigures(world());
@@ -240,11 +245,15 @@ void Session::advance(double seconds) {
 std::vector<uint8_t> Session::stopRecording() {
   const uint64_t from = std::max(recorded_from_.value_or(shown_), history_.first());
   recorded_from_.reset();
+  // The head of a file has no place for other solvers than those of the scene.
+  std::vector<TimedInput> inputs = inputs_;
+  const RunSettings& set = run_->settings();
+  if (set.joint_solver || set.contact_solver) inputs.insert(inputs.begin(), {0, start_solver_});
   RecordingWriter writer({.target = spec().target(),
                           .dt = start_dt_,
-                          .substeps = start_substeps_,
+                          .substeps = uint32_t(start_solver_.substeps),
                           .parameters = parameters_,
-                          .inputs = inputs_});
+                          .inputs = std::move(inputs)});
   for (uint64_t step = from; step <= std::max(from, shown_) && step <= history_.last(); ++step)
     writer.add(history_.frame(step));
   return writer.bytes();

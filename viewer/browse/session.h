@@ -18,7 +18,7 @@ namespace viewer {
 // The cost of a stage over the last steps.
 struct StageCost {
   std::string name;
-  std::vector<float> recent;  // ms, oldest first, at most Session::kRecent
+  std::vector<float> recent;  // ms, oldest first, as many as there are totals
 };
 
 // A body that the mouse pulls.
@@ -107,7 +107,7 @@ class Session {
   std::vector<TimedInput> inputs_;
   std::vector<float> parameters_;  // at the start of the run
   float start_dt_ = samples::kTimeStep;
-  uint32_t start_substeps_ = 1;
+  pfx::SolverSettings start_solver_;
   std::vector<std::byte> present_;  // snapshot of the last step, while an earlier one is shown
   uint64_t shown_ = 0;
   bool rewound_ = false;  // an earlier step than the last is shown

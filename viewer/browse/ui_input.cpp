@@ -11,8 +11,8 @@ void UiInput::add(const WindowInput& input) {
   keys_.insert(keys_.end(), input.keys.begin(), input.keys.end());
   buttons_.insert(buttons_.end(), input.buttons.begin(), input.buttons.end());
   characters_.insert(characters_.end(), input.characters.begin(), input.characters.end());
-  frame_.mouse_x = input.mouse_x;
-  frame_.mouse_y = input.mouse_y;
+  mouse_x_ = input.mouse_x;
+  mouse_y_ = input.mouse_y;
   frame_.wheel_x += input.wheel_x;
   frame_.wheel_y += input.wheel_y;
   // Releases outside of the window never arrive.
@@ -28,8 +28,12 @@ const UiInput::Frame& UiInput::next() {
   frame_.characters.swap(characters_);
   characters_.clear();
 
+  // A button acts where the mouse was in that moment, wherever it has gone since.
+  frame_.mouse_x = buttons_.empty() ? mouse_x_ : buttons_.front().x;
+  frame_.mouse_y = buttons_.empty() ? mouse_y_ : buttons_.front().y;
   std::set<int> changed;
-  while (!buttons_.empty() && changed.insert(buttons_.front().button).second) {
+  while (!buttons_.empty() && buttons_.front().x == frame_.mouse_x && buttons_.front().y == frame_.mouse_y &&
+         changed.insert(buttons_.front().button).second) {
     frame_.held[buttons_.front().button] = buttons_.front().down;
     frame_.buttons.push_back(buttons_.front());
     buttons_.pop_front();

@@ -39,6 +39,7 @@ class UiInput {
   std::deque<KeyEvent> keys_;
   std::deque<ButtonEvent> buttons_;
   std::vector<uint32_t> characters_;
+  float mouse_x_ = -1.0f, mouse_y_ = -1.0f;  // px, where it is now
   Frame frame_;
 };
 

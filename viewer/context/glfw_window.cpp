@@ -118,7 +118,8 @@ class GlfwWindow final : public Window {
     });
     glfw().SetCharCallback(window_, [](GLFWwindow* w, unsigned c) { inputOf(w).characters.push_back(c); });
     glfw().SetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
-      if (button < 3) inputOf(w).buttons.push_back({button, action == GLFW_PRESS});
+      WindowInput& input = inputOf(w);
+      if (button < 3) input.buttons.push_back({button, action == GLFW_PRESS, input.mouse_x, input.mouse_y});
     });
     glfw().SetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) {
       // Screen units differ from pixels on high-density displays.

@@ -30,6 +30,7 @@ struct KeyEvent {
 struct ButtonEvent {
   int button;  // 0 left, 1 right, 2 middle
   bool down;
+  float x = -1.0f, y = -1.0f;  // px, of the mouse in that moment
 };
 
 // Everything that happened since the last poll, and what is held now. Positions are pixels of the

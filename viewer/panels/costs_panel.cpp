@@ -29,10 +29,7 @@ void stackedPlot(const std::vector<StageCost>& costs, const std::vector<float>& 
     const float x = at.x + size.x - bar * float(totals.size() - step);
     float y = at.y + size.y;
     for (size_t i = 0; i < costs.size(); ++i) {
-      // A stage that came late has fewer values; all end at the newest step.
-      const size_t missing = totals.size() - std::min(totals.size(), costs[i].recent.size());
-      if (step < missing) continue;
-      const float height = costs[i].recent[step - missing] / most * (size.y - 4.0f);
+      const float height = costs[i].recent[step] / most * (size.y - 4.0f);
       draw.AddRectFilled(ImVec2(x, y - height), ImVec2(x + std::max(bar - 0.3f, 1.0f), y), stageColor(i));
       y -= height;
     }
