@@ -9,8 +9,7 @@ namespace samples {
 using namespace pfx;
 
 void addPrimitives(World& world) {
-  const BodyId sphere = addBody(world, "sphere", Sphere{1.0f}, Vec3(-5.0f, 5.0f, 0.0f), 1.0f);
-  world.body(sphere).rolling_resistance = 0.04f;  // or it would roll for a minute
+  addBody(world, "sphere", Sphere{1.0f}, Vec3(-5.0f, 5.0f, 0.0f), 1.0f);
   addBody(world, "box", Box{Vec3::Ones()}, Vec3(0.0f, 5.0f, 5.0f), 1.0f);
   addBody(world, "capsule", Capsule{1.5f, 0.5f}, Vec3(5.0f, 5.0f, 0.0f), 2.0f);
   addBody(world, "cylinder", Cylinder{0.5f, 1.5f}, Vec3(0.0f, 10.0f, 0.0f), 3.0f);

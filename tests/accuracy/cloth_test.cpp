@@ -178,8 +178,8 @@ TEST(HardCloth, PulledToTwiceItsLengthOverAnEdgeItComesBack) {
   std::printf("sheet pulled to %.0f %% strain over an edge: below 2 %% for good %d steps after its release, %.3f %% after 4 s; "
               "%.4f m inside the table at most, %.4f m after 4 s\n", 100.0 * worst, last_over, 100.0 * p.maxStrain(), deepest, inside);
   EXPECT_LT(last_over, 60);
-  EXPECT_LT(p.maxStrain(), 0.02f);
-  EXPECT_LT(deepest, 0.1f);
+  EXPECT_LT(p.maxStrain(), 0.01f);
+  EXPECT_LT(deepest, 0.02f);
 }
 
 // HARD-22: hair of a metre on a head that shakes with 20 g.

@@ -20,7 +20,7 @@ constexpr float kMostLent = 1000.0f;
 
 // A Newton step from links that are off by less than this share of their length leaves an error of its square. Where a
 // whip turns them farther in one sub-step there are more steps, up to a bound.
-constexpr float kFarOff = 0.01f;
+constexpr float kFarOff = 0.03f;
 constexpr int kMostSteps = 12;
 
 }  // namespace
