@@ -11,16 +11,23 @@ namespace {
 constexpr float kRestingMargin = 0.02f;
 constexpr uint32_t kProxyGrain = 256;
 
-ContactReach reachOf(const World::Impl& w, uint32_t i) {
+struct BodyReach {
+  ContactReach contacts;
+  float margin;  // m, of the bounds, which are stretched along the way of the body as well
+};
+
+BodyReach reachOf(const World::Impl& w, uint32_t i) {
   const RigidState& s = w.store.states[i];
-  const float size = w.store.size[i];
-  const MeshMotion* surface = w.motionOf(i);
-  const float speed = s.linear_velocity.norm() + s.angular_velocity.norm() * w.store.radius[i] +
-                      (surface ? surface->fastest : 0.0f);
-  return {.resting = kRestingMargin * size, .travel = std::min(speed * w.dt, size)};
+  const float size = w.store.size[i], resting = kRestingMargin * size;
+  const MeshMotion* motion = w.motionOf(i);
+  const float surface = motion ? w.dt * motion->fastest : 0.0f;
+  const float around = w.dt * s.angular_velocity.norm() * w.store.radius[i] + surface;
+  const float travel = w.dt * s.linear_velocity.norm() + around;
+  return {{.resting = resting, .travel = std::min(travel, size), .surface = std::min(surface, size)},
+          resting + std::min(around, size)};
 }
 
-// Writes the proxies of `bodies`, with bounds grown by their reach.
+// Writes the proxies of `bodies`, with bounds that hold what they may touch in the step.
 void makeProxies(World::Impl& w, std::span<const uint32_t> bodies, std::vector<BroadphaseProxy>& proxies) {
   proxies.resize(bodies.size());
   w.reach.resize(w.store.states.size());
@@ -28,9 +35,10 @@ void makeProxies(World::Impl& w, std::span<const uint32_t> bodies, std::vector<B
   w.tasks.parallelFor(static_cast<uint32_t>(bodies.size()), kProxyGrain, [&](TaskRange r) {
     for (uint32_t k = r.begin; k < r.end; ++k) {
       const uint32_t i = bodies[k];
-      const ContactReach reach = w.reach[i] = reachOf(w, i);
+      const BodyReach reach = reachOf(w, i);
+      w.reach[i] = reach.contacts;
       const RigidState& s = w.store.states[i];
-      updateProxy(s, w.store.collidables[i], box, reach.resting + reach.travel, proxies[k]);
+      updateProxy(s, w.store.collidables[i], box, reach.margin, proxies[k]);
       if (!moves(s)) continue;
       // The whole way of the step, so that fast bodies find what they could pass through.
       const Vec3 way = w.dt * s.linear_velocity;

@@ -8,7 +8,7 @@ namespace pfx::stage {
 
 void detectCollisions(World::Impl& w) {
   const DetectInput input{
-      .states = w.store.states, .collidables = w.store.collidables, .reach = w.reach, .pairs = w.pairs};
+      .states = w.store.states, .collidables = w.store.collidables, .reach = w.reach, .pairs = w.pairs, .dt = w.dt};
   w.detector.detect(input, w.contacts, w.tasks);
 }
 

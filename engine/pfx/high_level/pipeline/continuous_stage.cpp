@@ -6,6 +6,7 @@
 #include "pfx/base_level/math/trig.h"
 #include "pfx/high_level/pipeline/stages.h"
 #include "pfx/high_level/world/world_impl.h"
+#include "pfx/low_level/broadphase/shape_tree.h"
 #include "pfx/low_level/collision/body_pair.h"
 #include "pfx/low_level/continuous/time_of_impact.h"
 
@@ -17,6 +18,7 @@ namespace {
 constexpr float kFast = 0.5f;
 constexpr float kStop = 0.005f;
 constexpr uint32_t kPairGrain = 8;
+constexpr size_t kManyShapes = 4;  // of a body, from which on it pays to ask which can be reached
 
 Vec3 rotationVector(const Quat& from, const Quat& to) {
   Quat turn = to * from.conjugate();
@@ -26,16 +28,39 @@ Vec3 rotationVector(const Quat& from, const Quat& to) {
   return 2.0f * atan2(sine, turn.w()) / sine * turn.vec();
 }
 
-Sweep sweepOf(const World::Impl& w, uint32_t i) {
+Sweep measureSweep(const World::Impl& w, uint32_t i) {
   const RigidState& s = w.store.states[i];
-  if (!moves(s)) return {.start = s.pose()};
   const Transform& start = w.start_poses[i];
   return {start, s.position - start.position, rotationVector(start.orientation, s.orientation)};
 }
 
+Sweep sweepOf(const World::Impl& w, uint32_t i) {
+  const RigidState& s = w.store.states[i];
+  return moves(s) ? w.sweeps[i] : Sweep{.start = s.pose()};
+}
+
 bool isFast(const World::Impl& w, uint32_t i) {
-  const Sweep sweep = sweepOf(w, i);
+  const Sweep& sweep = w.sweeps[i];
   return sweep.motion.norm() + sweep.rotation.norm() * w.store.radius[i] > kFast * w.store.size[i];
+}
+
+// How far the surface of body `i` moves as `frame` sees it, at most: what turns with a drum stands still in it. The last
+// two terms are what the first ones leave out, of second order in the turns.
+float travelSeenFrom(const World::Impl& w, uint32_t i, uint32_t frame) {
+  const Sweep own = sweepOf(w, i), other = sweepOf(w, frame);
+  const Vec3 arm = own.start.position - other.start.position;
+  const Vec3 motion = own.motion - other.motion;
+  const float radius = w.store.radius[i], turn = other.rotation.norm();
+  return (motion - other.rotation.cross(arm)).norm() + radius * (own.rotation - other.rotation).norm() +
+         turn * (motion.norm() + 0.5f * turn * arm.norm()) + 0.5f * radius * own.rotation.cross(other.rotation).norm();
+}
+
+// Whether one body of the pair is so fast, as the other sees it, that they could pass through each other.
+bool mayPass(const World::Impl& w, const Pair& pair) {
+  const auto is_fast = [&](uint32_t i, uint32_t frame) {
+    return moves(w.store.states[i]) && w.is_fast[i] && travelSeenFrom(w, i, frame) > kFast * w.store.size[i];
+  };
+  return is_fast(pair.body_a, pair.body_b) || is_fast(pair.body_b, pair.body_a);
 }
 
 // Which shapes a pair is swept with.
@@ -44,14 +69,32 @@ struct Swept {
   float tolerance;
 };
 
+// Calls fn(shape) for those of the shapes of `body` that `other` may reach on its way.
+template <class Fn>
+void visitReached(const World::Impl& w, uint32_t body, uint32_t other, const Swept& swept, Fn&& fn) {
+  const auto shapes = w.store.collidables[body].shapes();
+  const Vec3 at = sweepOf(w, body).start.applyInverse(sweepOf(w, other).start.position);
+  const float reach = w.store.radius[other] + travelSeenFrom(w, other, body) + swept.tolerance;
+  visitShapes(w.store.collidables[body], Aabb{at, at}.grown(reach), [&](uint32_t i) { fn(shapes[i]); });
+}
+
 Impact firstTouch(const World::Impl& w, const Pair& pair, const Swept& swept) {
   const Sweep sweep_a = sweepOf(w, pair.body_a), sweep_b = sweepOf(w, pair.body_b);
   Impact first;
-  for (const Shape& a : swept.a)
-    for (const Shape& b : swept.b) {
-      const Impact impact = timeOfImpact({a, sweep_a, b, sweep_b, swept.tolerance, first.fraction});
-      if (impact.state == Impact::State::Hit) first = impact;
-    }
+  const auto sweep = [&](const Shape& a, const Shape& b) {
+    const Impact impact = timeOfImpact({a, sweep_a, b, sweep_b, swept.tolerance, first.fraction});
+    if (impact.state == Impact::State::Hit) first = impact;
+  };
+  const auto sweepAll = [&](const Shape& a) {
+    if (swept.b.size() < kManyShapes)
+      for (const Shape& b : swept.b) sweep(a, b);
+    else
+      visitReached(w, pair.body_b, pair.body_a, swept, [&](const Shape& b) { sweep(a, b); });
+  };
+  if (swept.a.size() < kManyShapes)
+    for (const Shape& a : swept.a) sweepAll(a);
+  else
+    visitReached(w, pair.body_a, pair.body_b, swept, sweepAll);
   return first;
 }
 
@@ -102,8 +145,10 @@ void rememberPoses(World::Impl& w) {
 void stopAtImpacts(World::Impl& w) {
   w.is_fast.resize(w.store.states.size());
   w.stops.resize(w.store.states.size());
+  w.sweeps.resize(w.store.states.size());
   bool any = false;
   for (uint32_t i : w.moving) {
+    w.sweeps[i] = measureSweep(w, i);
     w.is_fast[i] = isFast(w, i);
     w.stops[i] = Stop{};
     any = any || w.is_fast[i];
@@ -117,6 +162,7 @@ void stopAtImpacts(World::Impl& w) {
   w.tasks.parallelFor(static_cast<uint32_t>(w.fast_pairs.size()), kPairGrain, [&](TaskRange r) {
     for (FastPair& f : std::span(w.fast_pairs).subspan(r.begin, r.end - r.begin)) {
       const Pair& pair = w.pairs[f.pair];
+      if (!mayPass(w, pair)) continue;
       f.impact = firstImpact(w, pair, kStop * std::min(w.store.size[pair.body_a], w.store.size[pair.body_b]));
     }
   });

@@ -129,6 +129,7 @@ void reportTouches(World::Impl& w) {
   }
   for (; before != e.touching.cend(); ++before) carryOver(w, *before);
   e.touching.swap(e.next_touching);
+  e.next_touching.reserve(e.touching.capacity());  // the two take turns
 }
 
 // Bodies that exist, each once, ascending.

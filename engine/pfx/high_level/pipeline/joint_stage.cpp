@@ -1,11 +1,16 @@
 // Joints of a world: who solves which component, and the step of components that nothing touches.
 #include <algorithm>
+#include <limits>
 
 #include "pfx/high_level/pipeline/stages.h"
 #include "pfx/high_level/world/world_impl.h"
 
 namespace pfx {
 namespace {
+
+constexpr float kMostSoftLoad = 128.0f;
+constexpr size_t kMostDirectJoints = 1000;  // of a world, before light components make do with soft rows
+constexpr uint8_t kStaysSoft = 30;  // steps since a contact
 
 bool isAwake(const RigidState& s) { return isDynamic(s.motion_type) && !s.asleep; }
 
@@ -26,6 +31,33 @@ void listConstraints(World::Impl& w) {
   }
 }
 
+// What the lightest body of a component may have to bear, in units of its own mass.
+float loadOf(const World::Impl& w, const JointComponent& c) {
+  float sum = 0.0f, least = std::numeric_limits<float>::infinity();
+  for (uint32_t i : c.bodies) {
+    if (!isDynamic(w.store.states[i].motion_type)) continue;
+    sum += w.store.bodies[i].mass;
+    least = std::min(least, w.store.bodies[i].mass);
+  }
+  return sum / least;
+}
+
+// Soft rows are several times cheaper than a direct solve, and stretch under heavy loads.
+bool maySoften(const World::Impl& w, const JointComponent& c) {
+  return w.def.joint_solver == JointSolver::Auto && loadOf(w, c) < kMostSoftLoad;
+}
+
+// Steps since a contact touched one of the bodies, as far as it matters.
+uint8_t stepsSinceTouch(World::Impl& w, const JointComponent& c, bool touched) {
+  uint8_t least = kStaysSoft;
+  for (uint32_t i : c.bodies)
+    if (isDynamic(w.store.states[i].motion_type)) least = std::min(least, w.since_touch[i]);
+  if (least < kStaysSoft) ++least;
+  if (touched) least = 0;
+  for (uint32_t i : c.bodies) w.since_touch[i] = least;
+  return least;
+}
+
 void assignSolver(World::Impl& w, JointComponent& c) {
   const auto is = [&](auto&& condition) { return std::any_of(c.bodies.begin(), c.bodies.end(), condition); };
   if (!is([&](uint32_t i) { return isAwake(w.store.states[i]); })) return;
@@ -33,7 +65,13 @@ void assignSolver(World::Impl& w, JointComponent& c) {
     return isDynamic(w.store.states[i].motion_type) && w.solver_index[i] != kNoSolverBody;
   });
   for (uint32_t i : c.bodies) w.jointed[i] = 1;
-  if (c.is_direct && !touched) {
+  // Contacts and a direct solve only see each other through the bodies that they share. A blow on a light limb takes many
+  // turns to stop what hangs on it, the impulses that pile up meanwhile take as many to go away again, and throw the whole
+  // component. Soft rows in the same sweep as the contacts do not.
+  const bool with_contacts = stepsSinceTouch(w, c, touched) < kStaysSoft;
+  const bool in_crowd = w.joint_constraints.size() > kMostDirectJoints;
+  c.is_soft = !c.is_direct || ((with_contacts || in_crowd) && maySoften(w, c));
+  if (!c.is_soft && !touched) {
     w.free_components.push_back(&c);
     return;
   }
@@ -50,6 +88,7 @@ void gatherJoints(World::Impl& w) {
   w.joint_components.update(w.joint_constraints, static_cast<uint32_t>(w.store.states.size()),
                             w.def.joint_solver);
   w.jointed.assign(w.store.states.size(), 0);
+  w.since_touch.resize(w.store.states.size(), kLongSinceTouch);
   // A body may belong to two components that are touched at different ends only when it is not movable.
   for (JointComponent& c : w.joint_components.components()) assignSolver(w, c);
   std::erase_if(w.free_bodies, [&](uint32_t i) { return w.jointed[i] != 0; });

@@ -141,7 +141,7 @@ void setUpSolver(World::Impl& w) {
   });
   for (JointComponent* c : w.joint_step.components()) {
     for (size_t i = 0; i < c->bodies.size(); ++i) c->solver_index[i] = w.solver_index[c->bodies[i]];
-    if (c->is_direct) beginComponent(w, *c, {params.h, params.substeps, params.warm_start});
+    if (!c->is_soft) beginComponent(w, *c, {params.h, params.substeps, params.warm_start});
   }
   if (!w.joint_step.empty())
     w.joint_step.prepare(w.store.states, w.solver_dynamic, w.solver_bodies,

@@ -15,7 +15,7 @@ namespace {
 
 using namespace snapshot_format;
 
-constexpr uint32_t kVersion = 2;
+constexpr uint32_t kVersion = 3;
 constexpr std::array<uint8_t, 8> kMagic = {'P', 'F', 'X', 'S', 'N', 'A', 'P', 0};
 constexpr size_t kHeaderBytes = 16, kSectionBytes = 20;
 
@@ -86,7 +86,7 @@ void ioBodies(A& a, Content& c) {
     ioList(archive, shapes, [&](A& inner, Shape& shape) { ioShape(inner, shape, meshes); });
   });
   io(a, c.world.keyframes), io(a, c.world.changed_bodies), io(a, c.world.reach);
-  io(a, c.world.next_sleeper), io(a, c.world.has_woken);
+  io(a, c.world.next_sleeper), io(a, c.world.has_woken), io(a, c.world.since_touch);
 }
 
 template <class A>
@@ -245,7 +245,7 @@ void checkBodies(const Reader& r, const World::Impl& w) {
                       s.generations.size(), s.collidables.size(), s.shapes.size()})
     r.require(size == n, "the arrays differ in length");
   r.require(areBelow(s.free_slots, n) && areBelow(w.changed_bodies, n), "a body is not there");
-  r.require(w.reach.size() <= n && w.next_sleeper.size() <= n, "the arrays differ in length");
+  r.require(w.reach.size() <= n && w.next_sleeper.size() <= n && w.since_touch.size() <= n, "the arrays differ in length");
   for (const BodyPose& k : w.keyframes) r.require(k.body < n, "a key frame moves a body that is not there");
   for (uint32_t i = 0; i < n; ++i) {
     r.require(s.states[i].body_id == i, "a body has the wrong number");
@@ -398,6 +398,7 @@ void takeOver(World::Impl& w, World::Impl& from, const Memory& memory) {
   w.modified.clear();
   w.times.clear();
   rememberRows(w, memory.rows);
+  w.since_touch = std::move(from.since_touch);
 }
 
 template <size_t... I>

@@ -24,7 +24,7 @@ void io(A& a, JointLink& l) {
 
 template <class A>
 void io(A& a, ContactReach& r) {
-  io(a, r.resting), io(a, r.travel);
+  io(a, r.resting), io(a, r.travel), io(a, r.surface);
 }
 
 template <class A>

@@ -92,6 +92,7 @@ LargeMesh* World::keep(LargeMesh mesh) { return &impl_->large_meshes.emplace_bac
 BodyId World::addBody(const BodyDef& def) {
   const BodyId id = impl_->store.add(def);
   impl_->hasChanged(id.index);
+  if (id.index < impl_->since_touch.size()) impl_->since_touch[id.index] = kLongSinceTouch;
   return id;
 }
 

@@ -53,6 +53,8 @@ struct FastPair {
   Impact impact;
 };
 
+constexpr uint8_t kLongSinceTouch = 255;
+
 // A manifold that the application changed, which the solver gets in place of the original.
 struct ModifiedContact {
   ContactManifold manifold;
@@ -88,6 +90,7 @@ struct World::Impl {
 
   // Continuous collision, by body
   std::vector<Transform> start_poses;
+  std::vector<Sweep> sweeps;  // by body, of those that moved in the step
   std::vector<uint8_t> is_fast;
   std::vector<Stop> stops;
   std::vector<FastPair> fast_pairs;
@@ -116,6 +119,7 @@ struct World::Impl {
   std::vector<JointComponent*> free_components;  // awake, without contacts, solved alone
   JointStep joint_step;                          // the others
   std::vector<uint8_t> jointed;                  // by body: part of an awake component
+  std::vector<uint8_t> since_touch;              // by body: steps since a contact touched its component, saturating
   std::vector<JointId> broken_joints;            // in the last step
 
   // Solver

@@ -85,6 +85,7 @@ void TreeBroadphase::addLeaves(DynamicTree& tree, std::vector<TreeLeaf>& leaves)
 }
 
 Error TreeBroadphase::rest(std::span<const BroadphaseProxy> proxies) {
+  if (proxies.empty()) return Error::Ok;  // the pairs at rest need no look then
   uint32_t num_bodies = 0;
   for (const BroadphaseProxy& proxy : proxies) {
     if (proxy.body >= kMaxBodies) return Error::OutOfRange;

@@ -18,6 +18,19 @@ constexpr float kKept = 0.5f, kKeptRolling = 5e-5f;
 
 float radiusOf(const Collidable& c) { return (c.center.cwiseAbs() + c.half_extent).norm(); }
 
+// How far the surface of a body may move in the step as seen from a second one, which turns about its own place.
+float travelSeenFrom(const RigidState& body, float radius, const RigidState& frame, float dt) {
+  const Vec3 carried = frame.linear_velocity + frame.angular_velocity.cross(body.position - frame.position);
+  return dt * ((body.linear_velocity - carried).norm() + (body.angular_velocity - frame.angular_velocity).norm() * radius);
+}
+
+// The same of two bodies, seen from the larger one: bodies that move together reach no farther than those that rest.
+float relativeTravel(const DetectInput& input, const Pair& pair) {
+  const RigidState &a = input.states[pair.body_a], &b = input.states[pair.body_b];
+  const float ra = radiusOf(input.collidables[pair.body_a]), rb = radiusOf(input.collidables[pair.body_b]);
+  return ra < rb ? travelSeenFrom(a, ra, b, input.dt) : travelSeenFrom(b, rb, a, input.dt);
+}
+
 bool idsExist(const DetectInput& input, const ContactStore& contacts) {
   const size_t bodies = input.states.size();
   if (input.collidables.size() != bodies || input.reach.size() != bodies) return false;
@@ -60,8 +73,8 @@ void CollisionDetector::detectPair(const DetectInput& input, uint32_t index, Con
 
   scratch.found.clear();
   FoundManifolds found{scratch.found};
-  collideBodies({shapes_a, shapes_b, pose_a, pose_b, resting + ra.travel + rb.travel}, contact.cache, scratch.mesh,
-                found);
+  const float travel = std::min(ra.travel + rb.travel, relativeTravel(input, pair) + ra.surface + rb.surface);
+  collideBodies({shapes_a, shapes_b, pose_a, pose_b, resting + travel}, contact.cache, scratch.mesh, found);
   contact.relative = b_in_a;
   contact.rolls = found.rolls;
   noteMesh(input, index, found.leans, scratch);

@@ -21,7 +21,8 @@ namespace pfx {
 // How far ahead of touching a body makes contacts (m).
 struct ContactReach {
   float resting = 0.0f;  // always; a pair uses the smaller of the two
-  float travel = 0.0f;   // what its surface may move in the step
+  float travel = 0.0f;   // at most, for what its surface moves in the step
+  float surface = 0.0f;  // of that, what the surface moves on its own: a mesh that changes its shape
 };
 
 struct DetectInput {
@@ -29,6 +30,7 @@ struct DetectInput {
   std::span<const Collidable> collidables;  // by body
   std::span<const ContactReach> reach;      // by body
   std::span<const Pair> pairs;              // contact_id names the contact
+  float dt = 0.0f;                          // s, of the step
 };
 
 class CollisionDetector {

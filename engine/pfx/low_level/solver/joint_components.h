@@ -16,7 +16,8 @@
 namespace pfx {
 
 struct JointComponent {
-  bool is_direct = false;
+  bool is_direct = false;  // has a factor
+  bool is_soft = true;     // in this step
   DirectComponent direct;  // when is_direct
   std::vector<JointConstraint> joints;
   std::vector<uint32_t> bodies;        // indices of states, ascending, movable or not

@@ -23,14 +23,14 @@ void JointStep::clear() {
 
 void JointStep::add(JointComponent& component) {
   components_.push_back(&component);
-  if (component.is_direct) direct_.push_back(&component);
+  if (!component.is_soft) direct_.push_back(&component);
 }
 
 void JointStep::prepare(std::span<const RigidState> states, std::span<const uint8_t> is_dynamic,
                         std::span<const SolverBody> bodies, const SoftJointParams& params,
                         TaskManager& tasks) {
   for (const JointComponent* c : components_) {
-    if (c->is_direct) continue;
+    if (!c->is_soft) continue;
     const auto solver = [&](uint32_t body) {
       const auto at = std::lower_bound(c->bodies.begin(), c->bodies.end(), body);
       return c->solver_index[static_cast<size_t>(at - c->bodies.begin())];

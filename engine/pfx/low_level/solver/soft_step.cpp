@@ -113,7 +113,7 @@ void SoftStep::run(ContactKernels::Fn kernel, std::span<SolverBody> bodies, Task
 void SoftStep::push(const ContactKernels& kernels, std::span<SolverBody> bodies, JointStep& joints,
                     TaskManager& tasks) {
   if (joints.empty()) return run(kernels.push, bodies, tasks);
-  const int turns = lanes_.empty() ? 1 : 2;
+  const int turns = lanes_.empty() ? 1 : 3;
   for (int turn = 0; turn < turns; ++turn) {
     joints.push(bodies, tasks);
     run(kernels.push, bodies, tasks);
