@@ -17,6 +17,7 @@ constexpr float kCapCosine =
 constexpr float kSideCosine = 0.3f;  // below: the side does
 constexpr float kNear = 1e-4f;       // of the size; see polytope_pair.cpp
 constexpr float kSameDepth = 1e-5f;  // of the size: depths that count as equal
+constexpr float kRounding = 1e-6f;   // of the other shape: depths on a wide face are no better known
 constexpr float kSnap = 2e-6f;       // of the size: how much less gap a feature's own normal may have
 
 bool hasCap(float cosine) { return std::abs(cosine) > kCapCosine; }
@@ -150,7 +151,8 @@ bool findAxis(const CylinderPair& p, CoreAxis& axis, LocalResult& result) {
 }
 
 ContactCollector collector(const CylinderPair& p, const CoreAxis& axis) {
-  const float tolerance = kSameDepth * (p.cylinder.half_length + p.cylinder.radius);
+  const float tolerance =
+      kSameDepth * (p.cylinder.half_length + p.cylinder.radius) + kRounding * (p.b.outerRadius() + p.b.radius);
   return {axis.normal, {axis.separation - p.b.radius, p.pair.margin, tolerance}};
 }
 

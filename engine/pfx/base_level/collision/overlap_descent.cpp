@@ -67,9 +67,15 @@ Vec3 gridDirection(int i) {
   return Vec3(r * turn.cos, r * turn.sin, z);
 }
 
+// The deepest point of the smaller core, and its opposite on the other one; of a wide face any corner is as deep, and
+// that may lie far from where the two meet.
 CoreAxis startAt(const ConvexCore& a, const ConvexCore& b, const RelativePose& b_in_a, const Vec3& n) {
   CoreAxis axis{n, 0.0f, a.support(n).point, b_in_a.toA(b.support(-b_in_a.rotateToB(n)).point)};
   axis.separation = n.dot(axis.point_b - axis.point_a);
+  if (a.outerRadius() < b.outerRadius())
+    axis.point_b = axis.point_a + axis.separation * n;
+  else
+    axis.point_a = axis.point_b - axis.separation * n;
   return axis;
 }
 

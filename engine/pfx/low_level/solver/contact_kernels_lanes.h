@@ -140,7 +140,7 @@ inline void warmStart(ContactRows* rows, uint32_t count, SolverBody* bodies,
 inline constexpr int kSweeps = 2;
 
 inline void push(ContactRows* rows, uint32_t count, SolverBody* bodies, const ContactSolveParams& params) {
-  const F8 inv_h = F8::set(params.inv_h), slowest = F8::set(-params.max_push_speed);
+  const F8 inv_h = F8::set(params.inv_h), fastest = F8::set(params.max_push_speed);
   const F8 zero = F8::zero(), one = F8::set(1.0f);
   for (uint32_t k = 0; k < count; ++k) {
     ContactRows& r = rows[k];
@@ -155,12 +155,14 @@ inline void push(ContactRows* rows, uint32_t count, SolverBody* bodies, const Co
       const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
       const F8 s = F8::load(p.separation) + dot(n, shift + (contactShift(mb, arm_b, turns_b) - contactShift(ma, arm_a, turns_a)));
       const F8 apart = s > zero;
-      const F8 bias = select(apart, s * inv_h, max(bias_rate * s, slowest));
+      const F8 bias = s * select(apart, inv_h, bias_rate);
       const F8 vn = dot(n, relativeVelocity(c, arm_a, arm_b));
       const F8 old = F8::load(p.normal_impulse);
-      const F8 change = -(F8::load(p.normal_mass) * select(apart, one, mass_scale) * (vn + bias)) -
-                        select(apart, zero, impulse_scale) * old;
-      const F8 impulse = max(old + change, zero);
+      const F8 mass = F8::load(p.normal_mass) * select(apart, one, mass_scale);
+      const F8 change = -(mass * (vn + bias)) - select(apart, zero, impulse_scale) * old;
+      // Whatever the overlap, it opens no faster than this; what the row gives way under its load is not counted.
+      const F8 fast = mass * (fastest - vn);
+      const F8 impulse = max(old + select(apart, change, min(change, fast)), zero);
       impulse.store(p.normal_impulse);
       apply(c, (impulse - old) * n, arm_a, arm_b);
     }

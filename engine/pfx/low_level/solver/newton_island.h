@@ -27,7 +27,7 @@ struct NewtonParams {
   double give = 2e-3;                  // R in units of the inverse effective mass of a row
   double max_overlap = 1e-3;           // share of the lever of a point that its load presses in at most
   double push_rate = 0.4;              // share of an overlap that a sub-step takes back
-  double max_push_speed = 3.0;         // m/s
+  double max_push_speed = 0.65;        // m/s
   double friction_spread = 0.6;        // see ContactSolveParams
   double restitution_threshold = 0.5;  // m/s
 };

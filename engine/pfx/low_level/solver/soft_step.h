@@ -28,7 +28,8 @@ struct SoftStepParams {
   bool warm_start = true;              // start from the impulses in the manifolds
   float contact_frequency = 0.25f;     // of contacts, in units of 1/h; higher: stiffer, less calm
   float contact_damping = 1.0f;        // damping ratio of contacts
-  float max_push_speed = 3.0f;         // m/s
+  // m/s at which an overlap opens at most. The ends of a row of n bodies inside each other add up to half of n of it.
+  float max_push_speed = 0.65f;
   float friction_spread = 0.6f;        // 0 .. 1, see ContactSolveParams
   float restitution_threshold = 0.5f;  // m/s
   SimdLevel simd = SimdLevel::Auto;
