@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pfx/high_level/pipeline/restitution_threshold.h"
 #include "pfx/high_level/pipeline/stages.h"
 #include "pfx/high_level/world/world_impl.h"
 
@@ -45,7 +46,9 @@ bool isResting(const World::Impl& w, const ContactConstraint& c) {
 }
 
 NewtonParams newtonParams(const World::Impl& w) {
-  return {.h = static_cast<double>(w.dt) / w.def.substeps, .substeps = w.def.substeps};
+  return {.h = static_cast<double>(w.dt) / w.def.substeps,
+          .substeps = w.def.substeps,
+          .restitution_threshold = stage::restitutionThreshold(w)};
 }
 
 // Whether every body that a constraint could move is moved by it, and none has a surface that moves by itself.
