@@ -1,7 +1,6 @@
 #include "pfx/low_level/solver/soft_step.h"
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
 
 namespace pfx {
@@ -142,18 +141,12 @@ void SoftStep::run(ContactKernels::Fn kernel, std::span<SolverBody> bodies, Task
 }
 
 bool SoftStep::findMisled(std::span<const SolverBody> bodies, std::span<const BodyMotion> motions, float most,
-                          TaskManager& tasks) {
+                          JointStep& joints) {
   misled_.assign(bodies.size(), 0);
-  std::atomic<bool> any = false;
-  tasks.parallelFor(static_cast<uint32_t>(motions.size()), kBodyGrain, [&](TaskRange r) {
-    bool found = false;
-    for (uint32_t i = r.begin; i < r.end; ++i) {
-      misled_[i] = isMisled(bodies[i], motions[i], most);
-      found |= misled_[i] != 0;
-    }
-    if (found) any.store(true, std::memory_order_relaxed);
-  });
-  return any;
+  for (size_t i = 0; i < motions.size(); ++i) misled_[i] = isMisled(bodies[i], motions[i], most);
+  for (const JointComponent* c : joints.components())
+    for (uint32_t i : c->solver_index) misled_[i] = 0;
+  return std::find(misled_.begin(), misled_.end(), uint8_t{1}) != misled_.end();
 }
 
 void SoftStep::forgetMisled() {
@@ -170,9 +163,10 @@ void SoftStep::forgetMisled() {
 }
 
 void SoftStep::warmStart(const ContactKernels& kernels, std::span<SolverBody> bodies,
-                         std::span<const BodyMotion> motions, const SoftStepParams& params, TaskManager& tasks) {
+                         std::span<const BodyMotion> motions, const SoftStepParams& params, JointStep& joints,
+                         TaskManager& tasks) {
   run(kernels.warm_start, bodies, tasks);
-  for (int round = 0; findMisled(bodies, motions, params.max_push_speed, tasks); ++round) {
+  for (int round = 0; findMisled(bodies, motions, params.max_push_speed, joints); ++round) {
     if (round == kMostRounds) std::fill(misled_.begin(), misled_.end(), uint8_t{1});
     forgetMisled();
     takeBackGuess(bodies.first(motions.size()), motions);
@@ -200,7 +194,7 @@ void SoftStep::solve(std::span<SolverBody> bodies, std::span<BodyMotion> motions
     if (rows_[b].has_restitution) measureAtSurface(rows_[b], motions, params.restitution_threshold);
   for (int i = 0; i < params.substeps; ++i) {
     forBodies(bodies, motions, tasks, [&](auto b, auto m) { integrateVelocities(b, m, params.h); });
-    if (i == 0 && params.warm_start) warmStart(kernels, bodies, motions, params, tasks);
+    if (i == 0 && params.warm_start) warmStart(kernels, bodies, motions, params, joints, tasks);
     if (!joints.empty()) joints.start(bodies, i == 0, tasks);
     push(kernels, bodies, joints, tasks);
     forBodies(bodies, motions, tasks, [&](auto b, auto m) { integratePositions(b, m, params.h); });

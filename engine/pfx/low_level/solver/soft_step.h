@@ -5,7 +5,8 @@
 //
 // The impulses of the last step are a guess. They balance each other as long as nothing has changed; where a body was
 // taken away or set elsewhere, what is left of them may be many times what the other bodies can bear (a light body that
-// was squeezed by a heavy one). A guess that would throw a body is forgotten.
+// was squeezed by a heavy one). A guess that would throw a body is forgotten, unless
+// joints hold it, which may balance any load.
 //
 // Contacts are found once a step and followed through the sub-steps by the motion of their bodies. Pushing
 // overlap apart adds speed, which relax takes out again, so that positions heal without gaining energy. The
@@ -61,8 +62,8 @@ class SoftStep {
   };
   void makeBatches(std::span<const ContactConstraint> constraints);
   void warmStart(const ContactKernels& kernels, std::span<SolverBody> bodies, std::span<const BodyMotion> motions,
-                 const SoftStepParams& params, TaskManager& tasks);
-  bool findMisled(std::span<const SolverBody> bodies, std::span<const BodyMotion> motions, float most, TaskManager& tasks);
+                 const SoftStepParams& params, JointStep& joints, TaskManager& tasks);
+  bool findMisled(std::span<const SolverBody> bodies, std::span<const BodyMotion> motions, float most, JointStep& joints);
   void forgetMisled();
   void push(const ContactKernels& kernels, std::span<SolverBody> bodies, JointStep& joints, TaskManager& tasks);
   void run(ContactKernels::Fn kernel, std::span<SolverBody> bodies, TaskManager& tasks);
