@@ -116,6 +116,12 @@ void listSolvedAgain(World::Impl& w) {
     for (uint32_t i : c->bodies) w.needSolverBody(i);
 }
 
+// To the sequential impulses.
+void giveBack(World::Impl& w, const NewtonTask& task) {
+  w.constraints.insert(w.constraints.end(), task.constraints.begin(), task.constraints.end());
+  for (const ContactConstraint& c : task.constraints) w.needSolverBody(c.solver_a), w.needSolverBody(c.solver_b);
+}
+
 }  // namespace
 
 ContactStrain World::Impl::strainOf(const ContactConstraint& c) const {
@@ -152,9 +158,11 @@ void solveNewtonIslands(World::Impl& w) {
     for (uint32_t i = r.begin; i < r.end; ++i) {
       NewtonTask& t = w.newton_islands[i];
       t.solver.begin(w.store.states, w.store.bodies, t.bodies, t.motions, t.constraints, params);
-      t.solver.advance(w.store.states);
+      t.is_solved = t.solver.advance(w.store.states);
     }
   });
+  for (uint32_t i = 0; i < w.num_newton_islands; ++i)
+    if (!w.newton_islands[i].is_solved) giveBack(w, w.newton_islands[i]);
 }
 
 }  // namespace stage
