@@ -37,7 +37,8 @@ TEST(HardMachines, AGripperHoldsALightBoxWithoutShaking) {
   }
   report("HARD-15 gripper, 1:500, 1e4 N: overlap", overlap, 2e-3, "m");
   report("HARD-15 gripper: speed of the object after 2 s", shaking, 1e-3, "m/s");
-  EXPECT_TRUE(world.states()[object.index].position.allFinite());  // the case fails: see the lines above
+  EXPECT_LT(shaking, 1e-3);
+  EXPECT_LT(overlap, 0.15);  // falls short of its target: sequential impulses do not carry the load through the light box
 }
 
 // HARD-16: a disc that turns at 1000 rad/s is set down on the floor.
@@ -65,10 +66,24 @@ TEST(HardMachines, ARotorIsNotLaunched) {
   EXPECT_LT(speed, 1000.0 * kRadius);
 }
 
-// HARD-16: two pairs of gears, 20 : 1 in all, driven by a motor.
-TEST(HardMachines, AGearTrainKeepsItsRatio) {
+// Three wheels in a row, 20 : 1 in all, driven by a motor.
+struct GearTrain {
+  float speed = 5.0f, torque = 50.0f;  // of the motor, rad/s and N m
+  int substeps = 4;
+  float dt = kStep;
+  JointSolver solver = JointSolver::Auto;
+};
+
+struct GearTrainResult {
+  double slip = 0.0;   // relative, of the last wheel against the first, largest
+  double speed = 0.0;  // rad/s, of the last wheel at the end
+};
+
+GearTrainResult runGearTrain(const GearTrain& d) {
   WorldDef def = hardDef();
   def.gravity = Vec3::Zero();
+  def.substeps = d.substeps;
+  def.joint_solver = d.solver;
   World world(def);
   const BodyId post = addPost(world);
   BodyId wheels[3];
@@ -83,27 +98,73 @@ TEST(HardMachines, AGearTrainKeepsItsRatio) {
                         .params = HingeJointParams{.anchor_point = at, .axis = Vec3::UnitX()}});
     if (i == 0) first = hinge;
   }
-  world.joint(first).axis[3].motor_speed = 5.0f;
-  world.joint(first).axis[3].motor_max_force = 50.0f;
+  world.joint(first).axis[3].motor_speed = d.speed;
+  world.joint(first).axis[3].motor_max_force = d.torque;
   for (const auto& [a, b, ratio] : {std::tuple{0, 1, 4.0f}, {1, 2, 5.0f}})
     world.addJoint(
         {.body_a = wheels[a],
          .body_b = wheels[b],
          .params = GearJointParams{.axis_a = Vec3::UnitX(), .axis_b = Vec3::UnitX(), .ratio = ratio}});
-  double slip = 0.0;
   const auto turning = [&](int i) {
     return static_cast<double>(world.states()[wheels[i].index].angular_velocity.x());
   };
-  for (int i = 0; i < 300; ++i) {
-    world.step(kStep);
-    slip = std::max(slip, std::abs(turning(2) - 20.0 * turning(0)) / std::max(1.0, std::abs(turning(2))));
+  GearTrainResult result;
+  const int steps = static_cast<int>(5.0f / d.dt + 0.5f);
+  for (int i = 0; i < steps; ++i) {
+    world.step(d.dt);
+    result.slip =
+        std::max(result.slip, std::abs(turning(2) - 20.0 * turning(0)) / std::max(1.0, std::abs(turning(2))));
   }
-  report("HARD-16 gear train 20:1: slip, relative", slip, 1e-3, "");
-  EXPECT_TRUE(std::isfinite(turning(2)));  // the case fails: see the line above
+  result.speed = turning(2);
+  return result;
 }
 
-// HARD-19: 64 elastic balls without friction in a box of fixed walls, without gravity.
-TEST(HardMachines, AnElasticGasKeepsItsEnergy) {
+// HARD-16: two pairs of gears in a row.
+TEST(HardMachines, AGearTrainKeepsItsRatio) {
+  for (const auto& [substeps, dt] : {std::pair{4, kStep}, {2, 2.0f * kStep}}) {
+    const GearTrainResult r = runGearTrain({.substeps = substeps, .dt = dt});
+    std::printf("  HARD-16 %g Hz x %d\n", std::round(1.0 / double(dt)), substeps);
+    report("HARD-16 gear train 20:1: slip, relative", r.slip, 1e-3, "");
+    report("HARD-16 gear train 20:1: error of its speed", r.speed / 100.0 - 1.0, 1e-3, "");
+    EXPECT_LT(r.slip, 1e-3);
+    EXPECT_NEAR(r.speed, 100.0, 0.1);
+  }
+}
+
+// At 1200 rad/s the last wheel turns three times a step, which its pose at the ends of the step does not tell; a motor of
+// 500 kN m asks for that speed at once.
+TEST(HardMachines, AGearTrainTurnsAnyNumberOfTimesAStep) {
+  for (const float torque : {5e3f, 5e5f}) {
+    const GearTrainResult r = runGearTrain({.speed = 60.0f, .torque = torque});
+    report("HARD-16 gear train at 1200 rad/s: slip, relative", r.slip, 1e-3, "");
+    EXPECT_LT(r.slip, 1e-3);
+    EXPECT_NEAR(r.speed, 1200.0, 1.2);
+  }
+}
+
+// Sequential impulses hold the ratio of one pair and lag in a row of two; before, they lost count after half a turn.
+TEST(HardMachines, SoftGearsKeepCount) {
+  const GearTrainResult r = runGearTrain({.solver = JointSolver::Soft});
+  report("HARD-16 gear train 20:1, soft joints: error of its speed", r.speed / 100.0 - 1.0, 2e-2, "");
+  EXPECT_NEAR(r.speed, 100.0, 2.0);
+}
+
+double kineticEnergy(const World& world) {
+  double sum = 0.0;
+  for (size_t i = 0; i < world.states().size(); ++i)
+    if (isDynamic(world.states()[i].motion_type))
+      sum += 0.5 * static_cast<double>(world.bodies()[i].mass) *
+             world.states()[i].linear_velocity.cast<double>().squaredNorm();
+  return sum;
+}
+
+struct GasResult {
+  double energy = 0.0;  // relative change, largest
+  int outside = 0;      // balls, at the end
+};
+
+// HARD-19: elastic balls without friction in a box of fixed walls, without gravity.
+GasResult runGas(int balls, double seconds) {
   WorldDef def = hardDef();
   def.gravity = Vec3::Zero();
   World world(def);
@@ -120,7 +181,7 @@ TEST(HardMachines, AnElasticGasKeepsItsEnergy) {
     }
   std::mt19937 random(1);
   const auto number = [&] { return 2.0f * static_cast<float>(random()) / 4294967296.0f - 1.0f; };
-  for (int i = 0; i < 64; ++i) {
+  for (int i = 0; i < balls; ++i) {
     const Vec3 at(static_cast<float>(i % 4), static_cast<float>(i / 4 % 4), static_cast<float>(i / 16));
     Vec3 v;
     for (int k = 0; k < 3; ++k) v[k] = 3.0f * number();
@@ -130,18 +191,32 @@ TEST(HardMachines, AnElasticGasKeepsItsEnergy) {
                    .restitution = 1.0f,
                    .friction = 0.0f});
   }
-  const double before = energy(world);
+  const double before = kineticEnergy(world);
   Worst change;
-  int outside = 0;
-  for (int i = 0; i < 1800; ++i) {
+  const int steps = static_cast<int>(seconds * 60.0 + 0.5);
+  for (int i = 0; i < steps; ++i) {
     world.step(kStep);
-    change.add(energy(world) / before - 1.0);
+    change.add(kineticEnergy(world) / before - 1.0);
   }
+  GasResult r{.energy = change.value};
   for (const RigidState& s : world.states())
-    outside += isDynamic(s.motion_type) && s.position.cwiseAbs().maxCoeff() > kWall;
-  report("HARD-19 64 elastic balls, 30 s: energy, relative", change.value, 1e-2, "");
-  EXPECT_EQ(outside, 0);
-  EXPECT_LT(change.value, 0.05) << "a gain is a failure";
+    r.outside += isDynamic(s.motion_type) && s.position.cwiseAbs().maxCoeff() > kWall;
+  return r;
+}
+
+TEST(HardMachines, AnElasticBallKeepsItsEnergy) {
+  const GasResult r = runGas(1, 30.0);
+  report("HARD-19 one elastic ball, 30 s: energy, relative", r.energy, 1e-2, "");
+  EXPECT_EQ(r.outside, 0);
+  EXPECT_NEAR(r.energy, 0.0, 1e-3);
+}
+
+// Falls short of its target: balls that touch two others in one step lose energy there. Nothing may gain any.
+TEST(HardMachines, AnElasticGasGainsNoEnergy) {
+  const GasResult r = runGas(64, 30.0);
+  report("HARD-19 64 elastic balls, 30 s: energy, relative", r.energy, 1e-2, "");
+  EXPECT_EQ(r.outside, 0);
+  EXPECT_LT(r.energy, 0.01) << "a gain is a failure";
 }
 
 // HARD-20: bodies come, go, jump, change their kind and mass inside touching stacks, at every length of step.
@@ -191,7 +266,9 @@ TEST(HardMachines, DisorderStaysFiniteAndRepeatsItself) {
   double fastest = 0.0, again = 0.0;
   for (uint32_t seed = 1; seed <= 8; ++seed)
     EXPECT_EQ(disorder(seed, 1000, fastest), disorder(seed, 1000, again));
-  report("HARD-20 disorder, 3 seeds of 500 steps: fastest", fastest, 100.0, "m/s");
+  // What falls through the whole scene reaches 9 m/s; five times that is the limit.
+  report("HARD-20 disorder, 8 seeds of 1000 steps: fastest", fastest, 45.0, "m/s");
+  EXPECT_LT(fastest, 1e3);  // falls short of its target; it was 1.8e7
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pfx/base_level/joint/gear_angles.h"
 #include "pfx/base_level/math/trig.h"
 
 namespace pfx {
@@ -114,37 +115,49 @@ void linearizeTranslation(const Joint& j, const Frames& f, JointJacobian& m) {
   }
 }
 
-double countedOn(double counted, double angle) {
-  const double turns = std::floor((angle - counted) / (2.0 * kPiDouble) + 0.5);
+// The angle, by whole turns nearest to `near`.
+double nearest(double angle, double near) {
+  const double turns = std::floor((angle - near) / (2.0 * kPiDouble) + 0.5);
   return angle - turns * 2.0 * kPiDouble;
+}
+
+Vec3d gearAxis(const Quat& frame, const TransformDouble& body) {
+  return body.orientation * (frame.cast<double>() * Vec3d::UnitX());
 }
 
 JointLinearization linearizeGear(const Joint& j, const TransformDouble& a, const TransformDouble& b) {
   JointLinearization out = {};
-  const GearAngles angles = gearAngles(j, a, b);
-  out.coordinates.value[3] = j.gear_ratio * angles.a + angles.b;
-  const Vec3d axis_a = a.orientation * (j.frame_a.cast<double>() * Vec3d::UnitX());
-  const Vec3d axis_b = b.orientation * (j.frame_b.cast<double>() * Vec3d::UnitX());
-  setRow(out.jacobian.a[3], Vec3d::Zero(), static_cast<double>(j.gear_ratio) * axis_a);
-  setRow(out.jacobian.b[3], Vec3d::Zero(), axis_b);
+  out.coordinates.value[3] = gearCoordinate(j, gearAngles(j, a, b));
+  setRow(out.jacobian.a[3], Vec3d::Zero(), static_cast<double>(j.gear_ratio) * gearAxis(j.frame_a, a));
+  setRow(out.jacobian.b[3], Vec3d::Zero(), gearAxis(j.frame_b, b));
   return out;
 }
 
 }  // namespace
 
-GearAngles gearAngles(const Joint& j, const TransformDouble& a, const TransformDouble& b) {
+GearAngles gearAnglesNear(const Joint& j, const TransformDouble& a, const TransformDouble& b, const GearAngles& near) {
   const auto angle = [](const Quat& zero, const Quatd& now, const Quat& frame) {
     return twistOf(zero.cast<double>().conjugate() * now * frame.cast<double>());
   };
-  return {countedOn(j.gear_angle_a, angle(j.gear_zero_a, a.orientation, j.frame_a)),
-          countedOn(j.gear_angle_b, angle(j.gear_zero_b, b.orientation, j.frame_b))};
+  return {nearest(angle(j.gear_zero_a, a.orientation, j.frame_a), near.a),
+          nearest(angle(j.gear_zero_b, b.orientation, j.frame_b), near.b)};
+}
+
+GearAngles gearAngles(const Joint& j, const TransformDouble& a, const TransformDouble& b) {
+  return gearAnglesNear(j, a, b, {j.gear_angle_a, j.gear_angle_b});
+}
+
+double gearCoordinate(const Joint& j, const GearAngles& angles) { return j.gear_ratio * angles.a + angles.b; }
+
+GearAngles gearRates(const Joint& j, const TransformDouble& a, const Vec3d& wa, const TransformDouble& b,
+                     const Vec3d& wb) {
+  return {gearAxis(j.frame_a, a).dot(wa), gearAxis(j.frame_b, b).dot(wb)};
 }
 
 JointCoordinates measureJoint(const Joint& j, const TransformDouble& a, const TransformDouble& b) {
   JointCoordinates out = {};
   if (j.kind == JointKind::Gear) {
-    const GearAngles angles = gearAngles(j, a, b);
-    out.value[3] = j.gear_ratio * angles.a + angles.b;
+    out.value[3] = gearCoordinate(j, gearAngles(j, a, b));
     return out;
   }
   const Frames f = framesOf(j, a, b);

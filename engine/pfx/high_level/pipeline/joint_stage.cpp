@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "pfx/base_level/joint/gear_angles.h"
 #include "pfx/high_level/pipeline/stages.h"
 #include "pfx/high_level/world/world_impl.h"
 
@@ -79,9 +80,28 @@ void assignSolver(World::Impl& w, JointComponent& c) {
   for (uint32_t i : c.bodies) w.needSolverBody(i);
 }
 
+// The direct solver counts the turns of its gears itself, sub-step by sub-step.
+void countTurns(World::Impl& w, const JointComponent& c) {
+  for (const JointConstraint& k : c.joints) {
+    Joint& j = *k.joint;
+    if (j.kind != JointKind::Gear) continue;
+    const RigidState &a = w.store.states[k.body_a], &b = w.store.states[k.body_b];
+    const TransformDouble pose_a = toDouble(a.pose()), pose_b = toDouble(b.pose());
+    const GearAngles rate = gearRates(j, pose_a, a.angular_velocity.cast<double>(), pose_b, b.angular_velocity.cast<double>());
+    const double dt = w.dt;
+    const GearAngles now = gearAnglesNear(j, pose_a, pose_b, {j.gear_angle_a + dt * rate.a, j.gear_angle_b + dt * rate.b});
+    j.gear_angle_a = static_cast<float>(now.a), j.gear_angle_b = static_cast<float>(now.b);
+  }
+}
+
 }  // namespace
 
 namespace stage {
+
+void countGears(World::Impl& w) {
+  for (const JointComponent* c : w.joint_step.components())
+    if (!c->is_direct) countTurns(w, *c);
+}
 
 void gatherJoints(World::Impl& w) {
   listConstraints(w);

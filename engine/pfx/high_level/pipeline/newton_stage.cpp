@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "pfx/high_level/pipeline/restitution_threshold.h"
 #include "pfx/high_level/pipeline/stages.h"
 #include "pfx/high_level/world/world_impl.h"
 
@@ -45,7 +46,9 @@ bool isResting(const World::Impl& w, const ContactConstraint& c) {
 }
 
 NewtonParams newtonParams(const World::Impl& w) {
-  return {.h = static_cast<double>(w.dt) / w.def.substeps, .substeps = w.def.substeps};
+  return {.h = static_cast<double>(w.dt) / w.def.substeps,
+          .substeps = w.def.substeps,
+          .restitution_threshold = stage::restitutionThreshold(w)};
 }
 
 // Whether every body that a constraint could move is moved by it, and none has a surface that moves by itself.
@@ -113,6 +116,12 @@ void listSolvedAgain(World::Impl& w) {
     for (uint32_t i : c->bodies) w.needSolverBody(i);
 }
 
+// To the sequential impulses.
+void giveBack(World::Impl& w, const NewtonTask& task) {
+  w.constraints.insert(w.constraints.end(), task.constraints.begin(), task.constraints.end());
+  for (const ContactConstraint& c : task.constraints) w.needSolverBody(c.solver_a), w.needSolverBody(c.solver_b);
+}
+
 }  // namespace
 
 ContactStrain World::Impl::strainOf(const ContactConstraint& c) const {
@@ -149,9 +158,11 @@ void solveNewtonIslands(World::Impl& w) {
     for (uint32_t i = r.begin; i < r.end; ++i) {
       NewtonTask& t = w.newton_islands[i];
       t.solver.begin(w.store.states, w.store.bodies, t.bodies, t.motions, t.constraints, params);
-      t.solver.advance(w.store.states);
+      t.is_solved = t.solver.advance(w.store.states);
     }
   });
+  for (uint32_t i = 0; i < w.num_newton_islands; ++i)
+    if (!w.newton_islands[i].is_solved) giveBack(w, w.newton_islands[i]);
 }
 
 }  // namespace stage

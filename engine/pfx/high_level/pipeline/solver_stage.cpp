@@ -2,6 +2,7 @@
 #include <algorithm>
 
 #include "pfx/base_level/math/trig.h"
+#include "pfx/high_level/pipeline/restitution_threshold.h"
 #include "pfx/high_level/pipeline/stages.h"
 #include "pfx/high_level/world/world_impl.h"
 
@@ -24,6 +25,7 @@ SoftStepParams solveParams(const World::Impl& w) {
   p.h = w.dt / static_cast<float>(w.def.substeps);
   p.warm_start = w.def.pipeline != Pipeline::Simple;
   p.simd = w.def.simd;
+  p.restitution_threshold = restitutionThreshold(w);
   return p;
 }
 
@@ -54,6 +56,11 @@ void flyFor(RigidState& s, const Vec3& a, float c, float t) {
 }
 
 }  // namespace
+
+float restitutionThreshold(const World::Impl& w) {
+  constexpr float kMostSpeed = 0.5f, kFall = 4.0f;
+  return std::min(kMostSpeed, kFall * w.dt * w.def.gravity.norm());
+}
 
 BodyMotion makeMotion(const World::Impl& w, uint32_t i, float h) {
   const RigidBody& body = w.store.bodies[i];

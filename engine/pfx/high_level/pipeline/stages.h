@@ -23,6 +23,7 @@ void writeBack(World::Impl& world);          // solver bodies to states
 void followKeyframes(World::Impl& world);    // key-frame bodies reach their pose
 void storeImpulses(World::Impl& world);      // rows to manifolds, for the next step
 void wakeTouched(World::Impl& world);        // islands that something touches wake up
+void countGears(World::Impl& world);         // how far soft gears have turned
 void breakJoints(World::Impl& world);        // joints beyond their strength are removed
 void rememberPoses(World::Impl& world);      // where everything that moves starts from
 void stopAtImpacts(World::Impl& world);      // what moves far goes through nothing

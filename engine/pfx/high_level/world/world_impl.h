@@ -38,6 +38,7 @@ struct NewtonTask {
   std::vector<uint32_t> bodies;  // indices of states, ascending, movable or not
   std::vector<BodyMotion> motions;
   std::vector<ContactConstraint> constraints;
+  bool is_solved = false;
 };
 
 // Where a fast body is held up in a step.

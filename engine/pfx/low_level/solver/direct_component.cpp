@@ -21,6 +21,12 @@ constexpr double kOpenRegularization = 1e-9;
 constexpr double kClosedRegularization = 1e-6;
 constexpr double kClosedSlop = 1e-6;
 
+// Near a pose in which a loop loses a row (all bars of a parallelogram in one line) a solve may make things worse, this
+// many times. It is taken back, and the diagonal enlarged further: the step is shorter there, and the pose is passed.
+// Source: J. Nocedal, S. Wright, Numerical Optimization, 2006, section 10.3 (Levenberg and Marquardt's method).
+constexpr double kDiverging = 10.0;
+constexpr double kSingularRegularization = 1e-3;
+
 // From the first ratio of h^2 |K| to the inertia on (see stiffnessRatio), a component takes damped sub-steps
 // with the geometric stiffness of those bodies for which it is more than a tenth of the inertia, until it
 // falls below the second. Below, leapfrog resolves every vibration and conserves energy.
@@ -94,7 +100,7 @@ bool DirectComponent::build(std::span<const JointConstraint> joints, uint64_t ma
   diagonal_.assign(n * size, 0.0);
   off_diagonal_.assign(structure_.entries.size() * size, 0.0);
   scratch_.assign(std::max<size_t>(longest, 1) * size, 0.0);
-  x_.assign(n * block_, 0.0);
+  x_.assign(2 * n * block_, 0.0);  // the second half: the last solution
   return true;
 }
 
@@ -108,7 +114,7 @@ void DirectComponent::begin(std::span<const RigidState> states, std::span<const 
     bodies_[i] = makeDirectBody(states[body_index_[i]], bodies[body_index_[i]], motions[i]);
     start_[i] = bodies_[i].pose;
   }
-  for (DirectJoint& j : joints_) beginRows(j, params.substeps, params.warm_start);
+  for (DirectJoint& j : joints_) beginRows(j, bodies_, params.substeps, params.warm_start);
 }
 
 // Change of the torque that a joint's force makes as the body turns: sym(F r^T) - (r . F) 1 at lever r.
@@ -143,10 +149,11 @@ void DirectComponent::linearize(const DirectSubstep& s) {
   for (DirectJoint& j : joints_) updateResponses(j, bodies_);
 }
 
-void DirectComponent::factor() {
+double DirectComponent::regularization() const { return closed_ ? kClosedRegularization : kOpenRegularization; }
+
+void DirectComponent::factor(double regularization) {
   const int n = block_;
   const size_t size = static_cast<size_t>(n) * n;
-  const double regularization = closed_ ? kClosedRegularization : kOpenRegularization;
   for (size_t i = 0; i < joints_.size(); ++i)
     addOwnBlock(joints_[i], regularization, n, &diagonal_[position_[i] * size], joints_[i].row);
   std::fill(off_diagonal_.begin(), off_diagonal_.end(), 0.0);
@@ -176,16 +183,17 @@ void DirectComponent::solve() {
 // asked for only up to the regularised system's own solution, so that impulses do not grow from sub-step to
 // sub-step.
 double DirectComponent::fillResiduals(const DirectSubstep& s, bool velocity_only) {
-  const double regularization = closed_ ? kClosedRegularization : kOpenRegularization;
+  const double give = regularization();
   double worst = 0.0;
-  std::fill(x_.begin(), x_.end(), 0.0);
+  std::copy_n(x_.begin(), x_.size() / 2, x_.begin() + static_cast<std::ptrdiff_t>(x_.size() / 2));
+  std::fill_n(x_.begin(), x_.size() / 2, 0.0);
   for (size_t i = 0; i < joints_.size(); ++i) {
     const DirectJoint& j = joints_[i];
     for (int k = 0; k < j.num_rows; ++k) {
       const DirectRow& r = j.row[k];
       if (!r.held) continue;
       const RowResidual residual = rowResidual(j, k, bodies_, s, velocity_only);
-      const double speed = residual.speed - regularization * r.diagonal * r.impulse;
+      const double speed = residual.speed - give * r.diagonal * r.impulse;
       x_[position_[i] * block_ + k] = speed;
       worst = std::max(worst, std::abs(speed) / residual.tolerance);
     }
@@ -205,9 +213,23 @@ void DirectComponent::applySolution() {
   }
 }
 
+// Of the last solution, after the residuals of what it led to were filled in.
+void DirectComponent::takeBackSolution() {
+  const size_t last = x_.size() / 2;
+  for (size_t i = 0; i < joints_.size(); ++i) {
+    DirectJoint& j = joints_[i];
+    for (int k = 0; k < j.num_rows; ++k) {
+      if (!j.row[k].held) continue;
+      const double change = x_[last + position_[i] * block_ + k];
+      j.row[k].impulse -= change;
+      applyRow(j, k, -change, bodies_);
+    }
+  }
+}
+
 void DirectComponent::predictAll(double h) {
   for (DirectBody& b : bodies_) predict(b, h);
-  for (DirectJoint& j : joints_) measureNext(j, bodies_);
+  for (DirectJoint& j : joints_) measureNext(j, bodies_, h);
 }
 
 bool DirectComponent::update(bool velocity_only, bool first) {
@@ -219,17 +241,28 @@ bool DirectComponent::update(bool velocity_only, bool first) {
 // Newton's method on the positions at the end of the sub-step, with one factor as long as the rows stay the
 // same.
 void DirectComponent::holdPositions(const DirectSubstep& s) {
-  double last = std::numeric_limits<double>::infinity();
+  double last = std::numeric_limits<double>::infinity(), before = last, strength = regularization();
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     predictAll(s.h);
     const bool changed = update(false, iteration == 0);
     if (changed || !linearized_) {
-      factor();
+      factor(strength);
       linearized_ = true;
     }
     const double worst = fillResiduals(s, false);
+    if (!changed && worst > kDiverging * before) {
+      takeBackSolution();
+      strength = kSingularRegularization;
+      factor(strength);
+      predictAll(s.h);
+      fillResiduals(s, false);
+      solve();
+      applySolution();
+      continue;
+    }
     if (!changed && (worst < 1.0 || worst > kStagnation * last)) return;
     last = changed ? std::numeric_limits<double>::infinity() : worst;
+    before = worst;
     solve();
     applySolution();
   }
@@ -237,16 +270,26 @@ void DirectComponent::holdPositions(const DirectSubstep& s) {
 }
 
 void DirectComponent::holdVelocities(const DirectSubstep& s) {
-  double last = std::numeric_limits<double>::infinity();
+  double last = std::numeric_limits<double>::infinity(), before = last, strength = regularization();
   for (int iteration = 0; iteration < kMaxIterations; ++iteration) {
     const bool changed = update(true, iteration == 0);
     if (changed || !linearized_) {
-      factor();
+      factor(strength);
       linearized_ = true;
     }
     const double worst = fillResiduals(s, true);
+    if (!changed && worst > kDiverging * before) {
+      takeBackSolution();
+      strength = kSingularRegularization;
+      factor(strength);
+      fillResiduals(s, true);
+      solve();
+      applySolution();
+      continue;
+    }
     if (!changed && (worst < 1.0 || worst > kStagnation * last)) return;
     last = changed ? std::numeric_limits<double>::infinity() : worst;
+    before = worst;
     solve();
     applySolution();
   }
@@ -385,9 +428,8 @@ void DirectComponent::end() {
     j.joint->force = (j.impulse_sum / dt).cast<float>();
     j.joint->torque = (j.torque_sum / dt).cast<float>();
     if (j.joint->kind != JointKind::Gear) continue;
-    const GearAngles angles = gearAngles(*j.joint, bodies_[j.body[0]].pose, bodies_[j.body[1]].pose);
-    j.joint->gear_angle_a = static_cast<float>(angles.a);
-    j.joint->gear_angle_b = static_cast<float>(angles.b);
+    j.joint->gear_angle_a = static_cast<float>(j.turned.a);
+    j.joint->gear_angle_b = static_cast<float>(j.turned.b);
   }
 }
 

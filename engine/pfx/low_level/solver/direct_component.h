@@ -60,10 +60,12 @@ class DirectComponent {
  private:
   void linearize(const DirectSubstep& s);
   void addStiffness(const DirectJoint& j);
-  void factor();
+  void factor(double regularization);
   void solve();
   double fillResiduals(const DirectSubstep& s, bool velocity_only);
   void applySolution();
+  void takeBackSolution();
+  double regularization() const;
   void predictAll(double h);
   bool update(bool velocity_only, bool first);
   void holdPositions(const DirectSubstep& s);

@@ -4,12 +4,15 @@
 #include <cmath>
 #include <limits>
 
+#include "pfx/base_level/joint/gear_angles.h"
 #include "pfx/base_level/math/trig.h"
 
 namespace pfx {
 namespace {
 
 constexpr double kTolerance = 2e-8;      // of a coordinate, in units of `length` or rad
+constexpr double kShareOfSize = 0.1;     // `length` of a joint is at least this share of the radius of gyration
+constexpr double kMostTurn = 1.0;        // rad a sub-step, that is measured at the predicted pose
 constexpr double kReferenceRate = 60.0;  // 1/s: damping is given as a share a sixtieth of a second
 
 double rowTolerance(const DirectJoint& j, const DirectRow& r) {
@@ -186,14 +189,22 @@ void chooseRows(DirectJoint& j) {
     r.has_drive = hasDrive(c);
     enter(j, r, isFixed(c) ? RowState::Fixed : restState(r));
   }
-  // The arm of a fixed body may be as long as the world is wide, and says nothing about the joint.
-  const double arm_a = j.moves[0] ? j.joint->anchor_a.norm() : 0.0f;
-  const double arm_b = j.moves[1] ? j.joint->anchor_b.norm() : 0.0f;
-  j.length = std::max(arm_a + arm_b, 1e-6);
 }
 
-void beginRows(DirectJoint& j, int substeps, bool warm_start) {
+void beginRows(DirectJoint& j, std::span<const DirectBody> bodies, int substeps, bool warm_start) {
+  // The arm of a fixed body may be as long as the world is wide, and says nothing about the joint; that of a wheel on
+  // its axle is nothing.
+  const Vec3* const anchor[2] = {&j.joint->anchor_a, &j.joint->anchor_b};
+  double arms = 0.0, size = 0.0;
+  for (int side = 0; side < 2; ++side) {
+    const DirectBody& b = bodies[j.body[side]];
+    if (!j.moves[side]) continue;
+    arms += static_cast<double>(anchor[side]->norm());
+    size = std::max(size, std::sqrt(b.body_inertia.trace() / 3.0 * b.inv_mass));
+  }
+  j.length = std::max({arms, kShareOfSize * size, 1e-6});
   j.impulse_sum = j.torque_sum = Vec3d::Zero();
+  j.turned = j.expected = {j.joint->gear_angle_a, j.joint->gear_angle_b};
   for (int i = 0; i < j.num_rows; ++i) {
     DirectRow& r = j.row[i];
     AxisConstraint& c = j.joint->axis[r.axis];
@@ -207,10 +218,12 @@ void beginRows(DirectJoint& j, int substeps, bool warm_start) {
 
 void linearizeRows(DirectJoint& j, std::span<const DirectBody> bodies, const DirectSubstep& s) {
   const JointLinearization l = linearizeJoint(*j.joint, bodies[j.body[0]].pose, bodies[j.body[1]].pose);
+  const bool gear = j.joint->kind == JointKind::Gear;
+  if (gear) j.turned = gearAnglesNear(*j.joint, bodies[j.body[0]].pose, bodies[j.body[1]].pose, j.expected);
   bool drives = false;
   for (int i = 0; i < j.num_rows; ++i) {
     DirectRow& r = j.row[i];
-    r.value = l.coordinates.value[r.axis];
+    r.value = gear ? gearCoordinate(*j.joint, j.turned) : l.coordinates.value[r.axis];
     std::copy_n(l.jacobian.a[r.axis], 6, j.jacobian[0][i]);
     std::copy_n(l.jacobian.b[r.axis], 6, j.jacobian[1][i]);
     drives |= r.has_drive;
@@ -265,9 +278,20 @@ void applyRow(const DirectJoint& j, int row, double impulse, std::span<DirectBod
   }
 }
 
-void measureNext(DirectJoint& j, std::span<const DirectBody> bodies) {
-  const JointCoordinates c = measureJoint(*j.joint, bodies[j.body[0]].next, bodies[j.body[1]].next);
-  for (int i = 0; i < j.num_rows; ++i) j.row[i].next = c.value[j.row[i].axis];
+void measureNext(DirectJoint& j, std::span<const DirectBody> bodies, double h) {
+  const DirectBody &a = bodies[j.body[0]], &b = bodies[j.body[1]];
+  if (j.joint->kind == JointKind::Gear) {
+    const GearAngles rate = gearRates(*j.joint, a.pose, a.w, b.pose, b.w);
+    j.expected = gearAnglesNear(*j.joint, a.next, b.next, {j.turned.a + h * rate.a, j.turned.b + h * rate.b});
+    for (int i = 0; i < j.num_rows; ++i) j.row[i].next = gearCoordinate(*j.joint, j.expected);
+    return;
+  }
+  const JointCoordinates c = measureJoint(*j.joint, a.next, b.next);
+  for (int i = 0; i < j.num_rows; ++i) {
+    // An angle that has come round says nothing.
+    const double way = j.row[i].axis < 3 ? 0.0 : h * rowSpeed(j, i, bodies);
+    j.row[i].next = std::abs(way) > kMostTurn ? j.row[i].value + way : c.value[j.row[i].axis];
+  }
 }
 
 bool updateRows(DirectJoint& j, std::span<DirectBody> bodies, bool velocity_only, bool first) {

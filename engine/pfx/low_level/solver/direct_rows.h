@@ -53,6 +53,8 @@ struct DirectJoint {
   double jacobian[2][kNumJointAxes][6];  // by side and row
   double response[2][kNumJointAxes][6];  // velocity change of the body by an impulse of one
   double length = 1.0;                   // m, what tolerances are measured by
+  GearAngles turned = {0.0, 0.0};        // of a gear, at the current poses
+  GearAngles expected = {0.0, 0.0};      // where the current velocities lead
   Vec3d impulse_sum = Vec3d::Zero();     // over the step, on B
   Vec3d torque_sum = Vec3d::Zero();
 };
@@ -69,8 +71,8 @@ struct DirectSubstep {
 // Chooses the rows of a joint, when its kind or locks have changed.
 void chooseRows(DirectJoint& j);
 
-// Once a step: what depends on the record alone. substeps >= 1.
-void beginRows(DirectJoint& j, int substeps, bool warm_start);
+// Once a step: what depends on the record and the bodies alone. substeps >= 1.
+void beginRows(DirectJoint& j, std::span<const DirectBody> bodies, int substeps, bool warm_start);
 
 // Jacobian, responses and goals at the current poses; the impulses of the rows stay.
 void linearizeRows(DirectJoint& j, std::span<const DirectBody> bodies, const DirectSubstep& s);
@@ -84,8 +86,8 @@ double rowSpeed(const DirectJoint& j, int row, std::span<const DirectBody> bodie
 // Applies an impulse along a row.
 void applyRow(const DirectJoint& j, int row, double impulse, std::span<DirectBody> bodies);
 
-// Coordinates at the predicted poses.
-void measureNext(DirectJoint& j, std::span<const DirectBody> bodies);
+// Coordinates at the poses predicted for h seconds later.
+void measureNext(DirectJoint& j, std::span<const DirectBody> bodies, double h);
 
 // Brings rows in or takes them out. velocity_only: at the current pose instead of the predicted one. first:
 // nothing is solved yet, rows only come in. Returns whether anything changed.

@@ -11,6 +11,10 @@ namespace {
 
 constexpr double kReferenceRate = 60.0;  // 1/s: damping is given as a share a sixtieth of a second
 
+// Share of the error of a gear that a sub-step takes back. Its bodies turn too far in a step for the error to be followed
+// from their motion as that of other rows is.
+constexpr double kGearCorrection = 0.2;
+
 void setLane(Lane (&out)[3], int lane, const Vec3d& v) {
   for (int i = 0; i < 3; ++i) out[i][lane] = static_cast<float>(v[i]);
 }
@@ -112,6 +116,10 @@ void fillJointLane(const Joint& j, const JointSide& a, const JointSide& b, float
     r.bias[to.lane] = c.bias;
     r.max_impulse[to.lane] = std::min(c.max_force * h, 1e18f);
     if (drive) setDrive(c, l.coordinates.value[axis], mobility, h, r, to.lane);
+    if (j.kind == JointKind::Gear) {
+      r.is_drive[to.lane] = 1.0f;
+      r.target_speed[to.lane] = static_cast<float>(-kGearCorrection / h * c.bias * l.coordinates.value[axis]);
+    }
     if (warm_start && !drive) r.impulse[to.lane] = c.force * h;
   });
 }

@@ -15,6 +15,7 @@ class JointStep {
   void clear();
   void add(JointComponent& component);
   bool empty() const { return components_.empty(); }
+  bool hasSoft() const { return components_.size() > direct_.size(); }
   std::span<JointComponent* const> components() { return components_; }
 
   // Takes over what the components need of the step; solver_index of the components is set, and direct

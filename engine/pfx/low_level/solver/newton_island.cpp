@@ -10,6 +10,9 @@ namespace {
 constexpr double kStiffening = 8.0;
 constexpr int kMostStiffenings = 7;
 
+// No body leaves an island at more than this many times the largest speed before, and the push speed besides.
+constexpr double kMostGain = 4.0;
+
 // Displacement of the end of `arm` by the turn since the start of the step; on a round body only what a
 // rolling contact point follows, see contactShift in contact_kernels_lanes.h.
 Vec3d shiftOf(const Quatd& turn, const Vec3d& arm, bool round) {
@@ -245,7 +248,23 @@ void NewtonIsland::bounce() {
   }
 }
 
-void NewtonIsland::advance(std::span<RigidState> states) {
+// m/s, of a body or of its turning at its radius of gyration.
+double NewtonIsland::fastest() const {
+  double most = 0.0;
+  for (uint32_t i = 0; i < bodies_.size(); ++i) {
+    const DirectBody& b = bodies_[i];
+    const double* v = &velocity_[size_t(i) * 6];
+    const double radius = std::sqrt(b.body_inertia.trace() / 3.0 * b.inv_mass);
+    for (const double speed : {Vec3d(v[0], v[1], v[2]).norm(), radius * Vec3d(v[3], v[4], v[5]).norm()})
+      if (!(speed <= most)) most = speed;
+  }
+  return most;
+}
+
+bool NewtonIsland::advance(std::span<RigidState> states) {
+  double fall = 0.0;
+  for (const DirectBody& b : bodies_) fall = std::max(fall, params_.h * params_.substeps * b.acceleration.norm());
+  const double limit = kMostGain * (fastest() + fall) + params_.max_push_speed;
   for (int i = 0; i < params_.substeps; ++i) {
     startSubstep();
     setBias(true);
@@ -263,7 +282,9 @@ void NewtonIsland::advance(std::span<RigidState> states) {
     }
   }
   bounce();
+  if (!(fastest() <= limit)) return false;
   store(states);
+  return true;
 }
 
 void NewtonIsland::store(std::span<RigidState> states) {

@@ -41,8 +41,9 @@ class NewtonIsland {
              std::span<const uint32_t> bodies, std::span<const BodyMotion> motions,
              std::span<const ContactConstraint> constraints, const NewtonParams& params);
 
-  // The whole step. Writes the states of the dynamic bodies and the impulses of the manifolds.
-  void advance(std::span<RigidState> states);
+  // The whole step. Writes the states of the dynamic bodies and the impulses of the manifolds. False, with nothing
+  // written, when the answer would throw a body: where bodies are jammed, the circles of friction may not settle.
+  bool advance(std::span<RigidState> states);
 
   uint32_t iterations() const { return iterations_; }  // of Newton's method, in the last step
 
@@ -53,6 +54,7 @@ class NewtonIsland {
   void startSubstep();
   void setBias(bool push);
   void solve();
+  double fastest() const;
   void move();
   void bounce();
   void store(std::span<RigidState> states);

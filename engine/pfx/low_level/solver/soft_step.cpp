@@ -37,6 +37,38 @@ float surfaceSpeed(float approach, float separation, float acceleration) {
   return -std::sqrt(std::max(approach * approach - 2.0f * acceleration * separation, 0.0f));
 }
 
+// Rounds in which guesses are forgotten; whatever still throws a body then goes with all others.
+constexpr int kMostRounds = 4;
+
+// A guess may change the velocity of a body by this many times what the body has, and by the push speed besides.
+constexpr float kMostGain = 2.0f;
+
+Vec3 vectorOf(const float (&a)[3]) { return Vec3(a[0], a[1], a[2]); }
+
+// Angular velocity before the impulses.
+Vec3 freeSpin(const SolverBody& b, const BodyMotion& m) {
+  const float* i = b.inv_inertia;
+  const Vec3& l = m.free_momentum;
+  return Vec3(i[0] * l.x() + i[1] * l.y() + i[2] * l.z(), i[1] * l.x() + i[3] * l.y() + i[4] * l.z(),
+              i[2] * l.x() + i[4] * l.y() + i[5] * l.z());
+}
+
+bool isMisled(const SolverBody& b, const BodyMotion& m, float most) {
+  if (!m.inertia) return false;
+  if (!((vectorOf(b.v) - m.free_velocity).norm() <= most + kMostGain * m.free_velocity.norm())) return true;
+  const Vec3 spin = freeSpin(b, m);
+  const float radius = std::sqrt(m.inertia->body.trace() / 3.0f * b.inv_mass);
+  return !(radius * (vectorOf(b.w) - spin).norm() <= most + kMostGain * radius * spin.norm());
+}
+
+void takeBackGuess(std::span<SolverBody> bodies, std::span<const BodyMotion> motions) {
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    if (!motions[i].inertia) continue;
+    const Vec3 spin = freeSpin(bodies[i], motions[i]);
+    for (int k = 0; k < 3; ++k) bodies[i].v[k] = motions[i].free_velocity[k], bodies[i].w[k] = spin[k];
+  }
+}
+
 // Impacts of a batch count by the speed where the surfaces meet, not by that at the start of the step: with
 // acceleration a and separation s, v'^2 = v^2 - 2 a s.
 void measureAtSurface(ContactRows& rows, std::span<const BodyMotion> motions, float threshold) {
@@ -108,6 +140,41 @@ void SoftStep::run(ContactKernels::Fn kernel, std::span<SolverBody> bodies, Task
   }
 }
 
+bool SoftStep::findMisled(std::span<const SolverBody> bodies, std::span<const BodyMotion> motions, float most,
+                          JointStep& joints) {
+  misled_.assign(bodies.size(), 0);
+  for (size_t i = 0; i < motions.size(); ++i) misled_[i] = isMisled(bodies[i], motions[i], most);
+  for (const JointComponent* c : joints.components())
+    for (uint32_t i : c->solver_index) misled_[i] = 0;
+  return std::find(misled_.begin(), misled_.end(), uint8_t{1}) != misled_.end();
+}
+
+void SoftStep::forgetMisled() {
+  for (size_t b = 0; b < lanes_.size() / kRowLanes; ++b) {
+    ContactRows& rows = rows_[b];
+    for (int lane = 0; lane < kRowLanes; ++lane) {
+      if (!misled_[static_cast<size_t>(rows.body_a[lane])] && !misled_[static_cast<size_t>(rows.body_b[lane])]) continue;
+      for (uint32_t i = 0; i < rows.num_points; ++i) {
+        ContactPointRows& p = rows.points[i];
+        p.normal_impulse[lane] = p.tangent_impulse[0][lane] = p.tangent_impulse[1][lane] = 0.0f;
+      }
+    }
+  }
+}
+
+void SoftStep::warmStart(const ContactKernels& kernels, std::span<SolverBody> bodies,
+                         std::span<const BodyMotion> motions, const SoftStepParams& params, JointStep& joints,
+                         TaskManager& tasks) {
+  run(kernels.warm_start, bodies, tasks);
+  for (int round = 0; findMisled(bodies, motions, params.max_push_speed, joints); ++round) {
+    if (round == kMostRounds) std::fill(misled_.begin(), misled_.end(), uint8_t{1});
+    forgetMisled();
+    takeBackGuess(bodies.first(motions.size()), motions);
+    if (round == kMostRounds) return;
+    run(kernels.warm_start, bodies, tasks);
+  }
+}
+
 // Joints and contacts take turns, so that a direct solve sees what the contacts of its bodies did. One turn
 // is enough for either of them alone.
 void SoftStep::push(const ContactKernels& kernels, std::span<SolverBody> bodies, JointStep& joints,
@@ -127,7 +194,7 @@ void SoftStep::solve(std::span<SolverBody> bodies, std::span<BodyMotion> motions
     if (rows_[b].has_restitution) measureAtSurface(rows_[b], motions, params.restitution_threshold);
   for (int i = 0; i < params.substeps; ++i) {
     forBodies(bodies, motions, tasks, [&](auto b, auto m) { integrateVelocities(b, m, params.h); });
-    if (i == 0 && params.warm_start) run(kernels.warm_start, bodies, tasks);
+    if (i == 0 && params.warm_start) warmStart(kernels, bodies, motions, params, joints, tasks);
     if (!joints.empty()) joints.start(bodies, i == 0, tasks);
     push(kernels, bodies, joints, tasks);
     forBodies(bodies, motions, tasks, [&](auto b, auto m) { integratePositions(b, m, params.h); });

@@ -3,6 +3,11 @@
 //   for each sub-step: integrate velocities -> [warm start] -> push -> integrate positions -> relax
 //   at the end:        restitution
 //
+// The impulses of the last step are a guess. They balance each other as long as nothing has changed; where a body was
+// taken away or set elsewhere, what is left of them may be many times what the other bodies can bear (a light body that
+// was squeezed by a heavy one). A guess that would throw a body is forgotten, unless
+// joints hold it, which may balance any load.
+//
 // Contacts are found once a step and followed through the sub-steps by the motion of their bodies. Pushing
 // overlap apart adds speed, which relax takes out again, so that positions heal without gaining energy. The
 // stiffness is tied to the sub-step, so that the error falls with the square of its length instead of
@@ -57,6 +62,10 @@ class SoftStep {
     bool serial;          // the lanes of different batches share bodies
   };
   void makeBatches(std::span<const ContactConstraint> constraints);
+  void warmStart(const ContactKernels& kernels, std::span<SolverBody> bodies, std::span<const BodyMotion> motions,
+                 const SoftStepParams& params, JointStep& joints, TaskManager& tasks);
+  bool findMisled(std::span<const SolverBody> bodies, std::span<const BodyMotion> motions, float most, JointStep& joints);
+  void forgetMisled();
   void push(const ContactKernels& kernels, std::span<SolverBody> bodies, JointStep& joints, TaskManager& tasks);
   void run(ContactKernels::Fn kernel, std::span<SolverBody> bodies, TaskManager& tasks);
 
@@ -66,6 +75,7 @@ class SoftStep {
       lanes_;  // constraints in the order of the batches, null in idle lanes
   std::vector<ContactRows> rows_;
   std::vector<Group> groups_;
+  std::vector<uint8_t> misled_;  // by solver body
   ContactSolveParams solve_params_ = {};
 };
 

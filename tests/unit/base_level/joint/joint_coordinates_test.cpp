@@ -6,6 +6,7 @@
 #include <random>
 
 #include "pfx/base_level/joint/distance_joint.h"
+#include "pfx/base_level/joint/gear_angles.h"
 #include "pfx/base_level/joint/gear_joint.h"
 #include "pfx/base_level/joint/hinge_joint.h"
 #include "pfx/base_level/joint/slider_joint.h"
@@ -69,6 +70,19 @@ TEST(JointCoordinates, gearsCountWholeTurns) {
     EXPECT_NEAR(measureJoint(j, a, b).value[3], 0.0, 1e-5);
     j.gear_angle_a = static_cast<float>(angles.a), j.gear_angle_b = static_cast<float>(angles.b);
   }
+}
+
+TEST(JointCoordinates, gearsCountAnyNumberOfTurnsAtOnce) {
+  const TwoBodies s;
+  const Joint j = makeGearJoint(s.a, s.b, {.axis_a = Vec3::UnitX(), .axis_b = Vec3::UnitZ(), .ratio = 2.0f});
+  const TransformDouble a{Vec3d::Zero(), turn(20.0, Vec3d::UnitX())}, b{Vec3d::Zero(), turn(-40.0, Vec3d::UnitZ())};
+  const GearAngles angles = gearAnglesNear(j, a, b, {17.5, -42.5});
+  EXPECT_NEAR(angles.a, 20.0, 1e-5);
+  EXPECT_NEAR(angles.b, -40.0, 1e-5);
+  EXPECT_NEAR(gearCoordinate(j, angles), 0.0, 1e-5);
+  const GearAngles rates = gearRates(j, a, Vec3d(3, 1, 0), b, Vec3d(1, 0, -6));
+  EXPECT_NEAR(rates.a, 3.0, 1e-6);
+  EXPECT_NEAR(rates.b, -6.0, 1e-6);
 }
 
 // Central differences over 1e-5 of a random motion: error 1e-10 from the step, 1e-10 from rounding.
