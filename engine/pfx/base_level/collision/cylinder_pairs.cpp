@@ -17,6 +17,7 @@ constexpr float kCapCosine =
 constexpr float kSideCosine = 0.3f;  // below: the side does
 constexpr float kNear = 1e-4f;       // of the size; see polytope_pair.cpp
 constexpr float kSameDepth = 1e-5f;  // of the size: depths that count as equal
+constexpr float kRounding = 4e-7f;   // of the distance of the corner that a depth is measured from
 constexpr float kSnap = 2e-6f;       // of the size: how much less gap a feature's own normal may have
 
 bool hasCap(float cosine) { return std::abs(cosine) > kCapCosine; }
@@ -149,8 +150,10 @@ bool findAxis(const CylinderPair& p, CoreAxis& axis, LocalResult& result) {
   return true;
 }
 
-ContactCollector collector(const CylinderPair& p, const CoreAxis& axis) {
-  const float tolerance = kSameDepth * (p.cylinder.half_length + p.cylinder.radius);
+// farthest: m, of the corners that depths are measured from. A coin on a floor of a kilometre has depths that are known to
+// the rounding of the floor's corners.
+ContactCollector collector(const CylinderPair& p, const CoreAxis& axis, float farthest = 0.0f) {
+  const float tolerance = kSameDepth * (p.cylinder.half_length + p.cylinder.radius) + kRounding * farthest;
   return {axis.normal, {axis.separation - p.b.radius, p.pair.margin, tolerance}};
 }
 
@@ -164,10 +167,10 @@ void collideCylinderPolytope(const CylinderPair& p, LocalResult& result) {
   if (!findAxis(p, axis, result)) return;
   const Vec3& n = axis.normal;
   const RelativePose& pose = p.pair.b_in_a;
-  ContactCollector contacts = collector(p, axis);
   ContactPolygon face;
   const Vec3 to_b = -pose.rotateToB(n);
   loadFace(*p.polytope, supportingFaceAt(*p.polytope, to_b, p.b.support(to_b).id), pose, face);
+  ContactCollector contacts = collector(p, axis, face.vertices[0].norm());
   if (-face.normal.dot(n) > kCapCosine) {
     if (hasCap(n.x())) contacts.discFace(cap(p.cylinder, {}, n.x()), face);
     if (hasSide(n.x()))

@@ -23,6 +23,12 @@ void setDeltaRotation(SolverBody& b, const Quat& q) {
 // A turn below this (rad a sub-step, squared) leaves the world inertia as it is.
 constexpr float kNegligibleTurn2 = 1e-8f;
 
+// Changes of velocity up to this many sub-steps of free fall are the work of forces.
+constexpr float kSmoothFalls = 4.0f;
+
+// What is slower than this many is at rest or settles, and keeps the damping of the full drift.
+constexpr float kMovingFalls = 1.0f;
+
 Vec3 angularMomentum(const SolverBody& b, const BodyMotion& m, const Vec3& w) {
   if (m.inertia->spherical) return m.inertia->body(0, 0) * w;
   const Mat3 r = (deltaRotation(b) * m.start_orientation).toRotationMatrix();
@@ -42,6 +48,8 @@ void integrateVelocities(std::span<SolverBody> bodies, std::span<BodyMotion> mot
     SolverBody& b = bodies[i];
     BodyMotion& m = motions[i];
     if (!m.inertia) continue;
+    m.start_velocity = load(b.v);
+    m.start_spin = load(b.w);
     m.free_velocity = m.linear_decay * (load(b.v) + h * m.acceleration);
     const Vec3 w = m.angular_decay * (load(b.w) + h * symmetricProduct(b.inv_inertia, m.torque));
     m.free_momentum = angularMomentum(b, m, w);
@@ -50,12 +58,28 @@ void integrateVelocities(std::span<SolverBody> bodies, std::span<BodyMotion> mot
   }
 }
 
+void setLag(std::span<const SolverBody> bodies, std::span<BodyMotion> motions, float h) {
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    BodyMotion& m = motions[i];
+    if (!m.keeps_pace) continue;
+    m.lag = m.turn_lag = Vec3::Zero();
+    const float gravity2 = m.acceleration.squaredNorm(), fall2 = h * h * gravity2;
+    const Vec3 change = load(bodies[i].v) - m.start_velocity;
+    if (!(gravity2 > 0.0f) || change.squaredNorm() > kSmoothFalls * kSmoothFalls * fall2) continue;
+    if (!(m.start_velocity.squaredNorm() > kMovingFalls * kMovingFalls * fall2)) continue;
+    const Vec3 turn = load(bodies[i].w) - m.start_spin;
+    m.lag = 0.5f * h * (change - change.dot(m.acceleration) / gravity2 * m.acceleration);
+    m.turn_lag = 0.5f * h * turn.dot(m.acceleration) / gravity2 * m.acceleration;
+  }
+}
+
 void integratePositions(std::span<SolverBody> bodies, std::span<const BodyMotion> motions, float h) {
   for (size_t i = 0; i < bodies.size(); ++i) {
     SolverBody& b = bodies[i];
     const BodyMotion& m = motions[i];
-    store(b.dp, load(b.dp) + h * load(b.v));
+    store(b.dp, load(b.dp) + (h * load(b.v) - m.lag));
     const Vec3 w = load(b.w);
+    if (m.turn_lag.squaredNorm() > 0.0f) setDeltaRotation(b, expMap(-m.turn_lag) * deltaRotation(b));
     if (!m.inertia || m.inertia->spherical || w.squaredNorm() * h * h < kNegligibleTurn2) {
       setDeltaRotation(b, (expMap(h * w) * deltaRotation(b)).normalized());
       continue;

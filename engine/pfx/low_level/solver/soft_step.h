@@ -1,6 +1,6 @@
 // The default contact solver: sub-steps of soft constraints with a relax pass.
 //
-//   for each sub-step: integrate velocities -> [warm start] -> push -> integrate positions -> relax
+//   for each sub-step: integrate velocities -> [warm start -> settle] -> push -> integrate positions -> relax
 //   at the end:        restitution
 //
 // Contacts are found once a step and followed through the sub-steps by the motion of their bodies. Pushing
