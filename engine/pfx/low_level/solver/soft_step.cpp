@@ -128,7 +128,8 @@ void SoftStep::solve(std::span<SolverBody> bodies, std::span<BodyMotion> motions
   for (int i = 0; i < params.substeps; ++i) {
     forBodies(bodies, motions, tasks, [&](auto b, auto m) { integrateVelocities(b, m, params.h); });
     if (i == 0 && params.warm_start) run(kernels.warm_start, bodies, tasks);
-    if (i == 0) run(kernels.settle, bodies, tasks);
+    // not with joints, whose share of the load nobody knows yet
+    if (i == 0 && joints.empty()) run(kernels.settle, bodies, tasks);
     forBodies(bodies, motions, tasks, [&](auto b, auto m) { setLag(b, m, params.h); });
     if (!joints.empty()) joints.start(bodies, i == 0, tasks);
     push(kernels, bodies, joints, tasks);
