@@ -70,9 +70,7 @@ BodyMotion makeMotion(const World::Impl& w, uint32_t i, float h) {
           .impulse_velocity = Vec3::Zero(),
           .impulse_momentum = Vec3::Zero(),
           .start_velocity = Vec3::Zero(),
-          .start_spin = Vec3::Zero(),
-          .lag = Vec3::Zero(),
-          .turn_lag = Vec3::Zero()};
+          .lag = Vec3::Zero()};
 }
 
 void flyFree(World::Impl& w) {

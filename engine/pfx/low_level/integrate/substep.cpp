@@ -49,7 +49,6 @@ void integrateVelocities(std::span<SolverBody> bodies, std::span<BodyMotion> mot
     BodyMotion& m = motions[i];
     if (!m.inertia) continue;
     m.start_velocity = load(b.v);
-    m.start_spin = load(b.w);
     m.free_velocity = m.linear_decay * (load(b.v) + h * m.acceleration);
     const Vec3 w = m.angular_decay * (load(b.w) + h * symmetricProduct(b.inv_inertia, m.torque));
     m.free_momentum = angularMomentum(b, m, w);
@@ -62,14 +61,12 @@ void setLag(std::span<const SolverBody> bodies, std::span<BodyMotion> motions, f
   for (size_t i = 0; i < bodies.size(); ++i) {
     BodyMotion& m = motions[i];
     if (!m.keeps_pace) continue;
-    m.lag = m.turn_lag = Vec3::Zero();
+    m.lag = Vec3::Zero();
     const float gravity2 = m.acceleration.squaredNorm(), fall2 = h * h * gravity2;
     const Vec3 change = load(bodies[i].v) - m.start_velocity;
     if (!(gravity2 > 0.0f) || change.squaredNorm() > kSmoothFalls * kSmoothFalls * fall2) continue;
     if (!(m.start_velocity.squaredNorm() > kMovingFalls * kMovingFalls * fall2)) continue;
-    const Vec3 turn = load(bodies[i].w) - m.start_spin;
     m.lag = 0.5f * h * (change - change.dot(m.acceleration) / gravity2 * m.acceleration);
-    m.turn_lag = 0.5f * h * turn.dot(m.acceleration) / gravity2 * m.acceleration;
   }
 }
 
@@ -79,7 +76,6 @@ void integratePositions(std::span<SolverBody> bodies, std::span<const BodyMotion
     const BodyMotion& m = motions[i];
     store(b.dp, load(b.dp) + (h * load(b.v) - m.lag));
     const Vec3 w = load(b.w);
-    if (m.turn_lag.squaredNorm() > 0.0f) setDeltaRotation(b, expMap(-m.turn_lag) * deltaRotation(b));
     if (!m.inertia || m.inertia->spherical || w.squaredNorm() * h * h < kNegligibleTurn2) {
       setDeltaRotation(b, (expMap(h * w) * deltaRotation(b)).normalized());
       continue;

@@ -27,9 +27,7 @@ struct BodyMotion {
   Vec3 impulse_velocity;  // m/s, change that the impulses of the last sub-step made
   Vec3 impulse_momentum;  // N m s, world axes, likewise
   Vec3 start_velocity;    // m/s, before forces and impulses
-  Vec3 start_spin;        // rad/s, likewise
   Vec3 lag;               // m, what the drift goes too far
-  Vec3 turn_lag;          // rad, likewise
 };
 
 // Velocities at the start of a sub-step of h seconds: external forces, damping, and the last sub-step's
