@@ -51,7 +51,8 @@ TEST(AccFriction, aBoxSlidesTheRightDistance) {
   report("ACC-11 sliding distance, relative", error.value, 1e-3, "");
   report("ACC-11 sliding box, drift to the side", aside.value, 1e-3, "m");
   EXPECT_LT(std::abs(aside.value), 1e-3);
-  EXPECT_LT(std::abs(error.value), 0.05);  // speed lost in the last, partial sub-step; the target is missed
+  // The last sub-steps, below the speed of one of free fall, keep their bias: 1 m/s with mu of 0.6 and 1 miss the target.
+  EXPECT_LT(std::abs(error.value), 5e-3);
 }
 
 struct Incline {
@@ -92,9 +93,27 @@ TEST(AccFriction, aBoxOnASlopeSticksBelowTheAngleOfFrictionAndSlidesAbove) {
   }
   report("ACC-12 slope, creep in 2 s", creep.value, 1e-5, "m");
   report("ACC-12 slope, distance slid, relative", distance.value, 5e-3, "");
-  // Both targets are missed near the angle of friction; what is held is the level reached.
-  EXPECT_LT(std::abs(creep.value), 1e-3);
-  EXPECT_LT(std::abs(distance.value), 2.5e-2);
+  EXPECT_LT(std::abs(creep.value), 1e-5);
+  EXPECT_LT(std::abs(distance.value), 5e-3);
+}
+
+// ACC-12: the angle at which a box begins to slide, within 2 s, by bisection.
+TEST(AccFriction, aBoxBeginsToSlideAtTheAngleOfFriction) {
+  Worst error;
+  for (const double mu : {0.2, 0.5, 0.8}) {
+    const double critical = std::atan(mu) * 180.0 / M_PI;
+    double low = critical - 0.2, high = critical + 0.2;
+    for (int i = 0; i < 6; ++i) {
+      const double middle = 0.5 * (low + high);
+      Incline incline = makeIncline(mu, middle);
+      run(incline.world, 2.0);
+      // 0.01 degrees above the angle it is 4 mm
+      (incline.world.states()[incline.box.index].position.dot(incline.down) > 1e-3f ? high : low) = middle;
+    }
+    error.add(0.5 * (low + high) - critical);
+  }
+  report("ACC-12 slope, critical angle", error.value, 2e-2, "deg");
+  EXPECT_LT(std::abs(error.value), 2e-2);
 }
 
 TEST(AccFriction, aBoxOnASlopeDoesNotCreep) {
@@ -122,7 +141,7 @@ TEST(AccFriction, aBallThatSlidesBeginsToRoll) {
   report("ACC-13 slip to roll, slip left", slip, 1e-4, "m/s");
   EXPECT_LT(std::abs(speed), 1e-4);
   EXPECT_LT(std::abs(slip), 1e-4);
-  EXPECT_LT(std::abs(way), 2e-3);
+  EXPECT_LT(std::abs(way), 1e-4);
 }
 
 // ACC-14: a ball with side spin runs a parabola, whichever way the axes lie.
@@ -145,7 +164,7 @@ TEST(AccFriction, aMasseShotIsTheSameInEveryDirection) {
   report("ACC-14 masse shot, position after 2 s", error.value, 2e-3, "m");
   report("ACC-14 masse shot, spread over directions", across.value, 1e-4, "m");
   EXPECT_LT(across.value, 1e-4);
-  EXPECT_LT(error.value, 2e-2);
+  EXPECT_LT(error.value, 2e-3);
 }
 
 // ACC-15: a disc that slides and spins stops doing both at once (Farkas 2003, uniform pressure).
@@ -167,7 +186,8 @@ TEST(AccFriction, aPuckStopsSlidingAndSpinningTogether) {
                turned = angle / 16.403482 - 1.0;
   report("ACC-15 puck, distance, relative", way, 0.05, "");
   report("ACC-15 puck, angle, relative", turned, 0.05, "");
-  EXPECT_LT(std::abs(way), 0.25);  // the targets are missed: each step of so thin a disc is cut short at its first touch
+  EXPECT_LT(std::abs(way), 0.05);
+  EXPECT_LT(std::abs(turned), 0.2);  // the target is missed: friction points at 0.6 of the rim resist spin too little
 }
 
 // Heights of the first bounces of a ball dropped from `height` above the floor, in units of it.

@@ -36,6 +36,7 @@ struct alignas(32) ContactRows {
   uint32_t writable_b;
   uint32_t num_points;       // the most of any lane, 1 .. 4; missing points have zero mass
   uint32_t has_restitution;  // 0 or 1: some lane bounces
+  uint32_t is_new;           // bit i: nothing is known of the impulses of lane i
   alignas(32) Lane normal[3];  // unit, from A to B
   Lane tangent[3];           // unit; the second tangent is normal x tangent
   Lane center_a[3];          // m, mean of the arms: friction acts at center + spread * (arm - center)

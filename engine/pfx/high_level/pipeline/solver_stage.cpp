@@ -71,10 +71,13 @@ BodyMotion makeMotion(const World::Impl& w, uint32_t i, float h) {
           .torque = Vec3::Zero(),
           .linear_decay = body.linear_damping > 0.0f ? exp(-body.linear_damping * h) : 1.0f,
           .angular_decay = body.angular_damping > 0.0f ? exp(-body.angular_damping * h) : 1.0f,
+          .keeps_pace = false,
           .free_velocity = Vec3::Zero(),
           .free_momentum = Vec3::Zero(),
           .impulse_velocity = Vec3::Zero(),
-          .impulse_momentum = Vec3::Zero()};
+          .impulse_momentum = Vec3::Zero(),
+          .start_velocity = Vec3::Zero(),
+          .lag = Vec3::Zero()};
 }
 
 void flyFree(World::Impl& w) {
@@ -143,6 +146,7 @@ void setUpSolver(World::Impl& w) {
       const uint32_t i = w.solved[k];
       w.solver_bodies[k] = makeSolverBody(w.store.states[i], w.store.bodies[i], w.store.inertias[i]);
       w.motions[k] = makeMotion(w, i, params.h);
+      w.motions[k].keeps_pace = isDynamic(w.store.states[i].motion_type) && (w.joint_step.empty() || !w.jointed[i]);
       w.solver_dynamic[k] = isDynamic(w.store.states[i].motion_type);
     }
   });

@@ -23,6 +23,12 @@ void setDeltaRotation(SolverBody& b, const Quat& q) {
 // A turn below this (rad a sub-step, squared) leaves the world inertia as it is.
 constexpr float kNegligibleTurn2 = 1e-8f;
 
+// Changes of velocity up to this many sub-steps of free fall are the work of forces.
+constexpr float kSmoothFalls = 4.0f;
+
+// What is slower than this many is at rest or settles, and keeps the damping of the full drift.
+constexpr float kMovingFalls = 1.0f;
+
 // Levers and masses of contacts stay as they were at the start of the step. Where a slender body has turned away from
 // them, its small moment about its own axis gets in the way of levers that were along it, and impulses would spin it up
 // without end. So the moments that impulses meet are raised, by what keeps the masses of such levers within a third of
@@ -58,6 +64,7 @@ void integrateVelocities(std::span<SolverBody> bodies, std::span<BodyMotion> mot
     SolverBody& b = bodies[i];
     BodyMotion& m = motions[i];
     if (!m.inertia) continue;
+    m.start_velocity = load(b.v);
     m.free_velocity = m.linear_decay * (load(b.v) + h * m.acceleration);
     const Vec3 w = m.angular_decay * (load(b.w) + h * symmetricProduct(b.inv_inertia, m.torque));
     m.free_momentum = angularMomentum(b, m, w);
@@ -66,11 +73,24 @@ void integrateVelocities(std::span<SolverBody> bodies, std::span<BodyMotion> mot
   }
 }
 
+void setLag(std::span<const SolverBody> bodies, std::span<BodyMotion> motions, float h) {
+  for (size_t i = 0; i < bodies.size(); ++i) {
+    BodyMotion& m = motions[i];
+    if (!m.keeps_pace) continue;
+    m.lag = Vec3::Zero();
+    const float gravity2 = m.acceleration.squaredNorm(), fall2 = h * h * gravity2;
+    const Vec3 change = load(bodies[i].v) - m.start_velocity;
+    if (!(gravity2 > 0.0f) || change.squaredNorm() > kSmoothFalls * kSmoothFalls * fall2) continue;
+    if (!(m.start_velocity.squaredNorm() > kMovingFalls * kMovingFalls * fall2)) continue;
+    m.lag = 0.5f * h * (change - change.dot(m.acceleration) / gravity2 * m.acceleration);
+  }
+}
+
 void integratePositions(std::span<SolverBody> bodies, std::span<const BodyMotion> motions, float h) {
   for (size_t i = 0; i < bodies.size(); ++i) {
     SolverBody& b = bodies[i];
     const BodyMotion& m = motions[i];
-    store(b.dp, load(b.dp) + h * load(b.v));
+    store(b.dp, load(b.dp) + (h * load(b.v) - m.lag));
     const Vec3 w = load(b.w);
     if (!m.inertia || m.inertia->spherical || w.squaredNorm() * h * h < kNegligibleTurn2) {
       setDeltaRotation(b, (expMap(h * w) * deltaRotation(b)).normalized());

@@ -18,6 +18,7 @@ struct ContactKernels {
                       const ContactSolveParams& params);
   Fn prepare;      // makes rows of what the set-up copied; SolverBody::dq holds the orientation meanwhile
   Fn warm_start;   // applies the impulses in the rows
+  Fn settle;       // new contacts only: finds their impulses before anything moves
   Fn push;         // normal rows with bias: overlap is pushed out softly, gaps may close
   Fn relax;        // normal rows without push, then friction
   Fn restitution;  // rows that took an impact leave with restitution times the approach speed

@@ -36,12 +36,26 @@ inline V8 relativeVelocity(const Batch& c, const V8& arm_a, const V8& arm_b) {
 // spread pressure and not like its corners.
 inline V8 frictionArm(const V8& center, const V8& arm, F8 spread) { return center + spread * (arm - center); }
 
-// How far the body's rotation has moved the end of `arm` since the start of the step. On a round body the point of
-// contact stays where it is while the surface passes through it, so only the first-order part counts, which has no
-// component along the normal when the body rolls. turns: 1 or 0, see ContactRows.
-inline V8 contactShift(const Motion& m, const V8& arm, F8 turns) {
-  const V8 t = F8::set(2.0f) * cross(m.u, arm);
-  return t + turns * ((m.q - F8::set(1.0f)) * t + cross(m.u, t));
+// How a body has turned since the start of the step, as its contact points see it. On a round body they stay where they
+// are while the surface passes below them. So only the first-order part counts there, which has no component along the
+// normal when the body rolls, and of that only the swing: what turns about the normal, like a coin that spins on its
+// face, moves no surface up or down, and left in would turn the tilt. With q = swing * twist about n, the swing's vector
+// is w u - (u n) (u x n), but for a factor near 1. turns: 1 or 0, see ContactRows.
+struct ContactTurn {
+  V8 vector, u;
+  F8 turns, w_turns;  // w_turns: turns * (w - 1)
+};
+inline ContactTurn contactTurn(const Motion& m, const V8& n, F8 turns) {
+  const V8 swing = m.q * m.u - dot(m.u, n) * cross(m.u, n);
+  const F8 rigid = turns > F8::zero();
+  const V8 vector = {select(rigid, m.u.x, swing.x), select(rigid, m.u.y, swing.y), select(rigid, m.u.z, swing.z)};
+  return {vector, m.u, turns, turns * (m.q - F8::set(1.0f))};
+}
+
+// How far that has moved the end of `arm`.
+inline V8 contactShift(const ContactTurn& turn, const V8& arm) {
+  const V8 t = F8::set(2.0f) * cross(turn.vector, arm);
+  return t + turn.w_turns * t + turn.turns * cross(turn.u, t);
 }
 
 // Softness of a row, from its two kinds.
@@ -147,13 +161,13 @@ inline void push(ContactRows* rows, uint32_t count, SolverBody* bodies, const Co
     Batch c(r, bodies);
     const Motion ma = loadMotion(c.a), mb = loadMotion(c.b);
     const V8 n = V8::load(r.normal), shift = mb.dp - ma.dp;
-    const F8 turns_a = F8::load(r.turns_a), turns_b = F8::load(r.turns_b);
+    const ContactTurn turn_a = contactTurn(ma, n, F8::load(r.turns_a)), turn_b = contactTurn(mb, n, F8::load(r.turns_b));
     const F8 bias_rate = F8::load(r.bias_rate);
     const F8 mass_scale = F8::load(r.mass_scale), impulse_scale = F8::load(r.impulse_scale);
     for (uint32_t sweep = 0; sweep < kSweeps * r.num_points; ++sweep) {
       ContactPointRows& p = r.points[sweep % r.num_points];
       const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
-      const F8 s = F8::load(p.separation) + dot(n, shift + (contactShift(mb, arm_b, turns_b) - contactShift(ma, arm_a, turns_a)));
+      const F8 s = F8::load(p.separation) + dot(n, shift + (contactShift(turn_b, arm_b) - contactShift(turn_a, arm_a)));
       const F8 apart = s > zero;
       const F8 bias = s * select(apart, inv_h, bias_rate);
       const F8 vn = dot(n, relativeVelocity(c, arm_a, arm_b));
@@ -170,18 +184,29 @@ inline void push(ContactRows* rows, uint32_t count, SolverBody* bodies, const Co
   }
 }
 
-inline void relaxNormals(Batch& c, const V8& n, F8 inv_h) {
+// The lanes of a batch that a kernel works on. What the others carry stays.
+struct AllLanes {
+  F8 choose(F8 changed, F8) const { return changed; }
+};
+struct SomeLanes {
+  F8 mask;
+  F8 choose(F8 changed, F8 old) const { return select(mask, changed, old); }
+};
+
+template <class Lanes>
+inline void relaxNormals(Batch& c, const V8& n, F8 inv_h, const Lanes& lanes) {
   const Motion ma = loadMotion(c.a), mb = loadMotion(c.b);
   const V8 shift = mb.dp - ma.dp;
-  const F8 turns_a = F8::load(c.rows.turns_a), turns_b = F8::load(c.rows.turns_b);
+  const ContactTurn turn_a = contactTurn(ma, n, F8::load(c.rows.turns_a)),
+                    turn_b = contactTurn(mb, n, F8::load(c.rows.turns_b));
   const F8 zero = F8::zero();
   for (uint32_t i = 0; i < c.rows.num_points; ++i) {
     ContactPointRows& p = c.rows.points[i];
     const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
-    const F8 s = F8::load(p.separation) + dot(n, shift + (contactShift(mb, arm_b, turns_b) - contactShift(ma, arm_a, turns_a)));
+    const F8 s = F8::load(p.separation) + dot(n, shift + (contactShift(turn_b, arm_b) - contactShift(turn_a, arm_a)));
     const F8 vn = dot(n, relativeVelocity(c, arm_a, arm_b));
     const F8 old = F8::load(p.normal_impulse);
-    const F8 impulse = max(old - F8::load(p.normal_mass) * (vn + max(s, zero) * inv_h), zero);
+    const F8 impulse = lanes.choose(max(old - F8::load(p.normal_mass) * (vn + max(s, zero) * inv_h), zero), old);
     impulse.store(p.normal_impulse);
     max(impulse, F8::load(p.max_normal_impulse)).store(p.max_normal_impulse);
     apply(c, (impulse - old) * n, arm_a, arm_b);
@@ -197,7 +222,8 @@ inline F8 smallerEigenvalue(F8 m11, F8 m12, F8 m22) {
 // What sticks is stopped at once by the 2 x 2 block. What slides must be braked against its velocity, but the block turns
 // the impulse away from that where the body also turns; there a mass that is the same both ways takes its place, the
 // largest for which the projection converges.
-inline void solveFriction(Batch& c, const V8& n, F8 spread) {
+template <class Lanes>
+inline void solveFriction(Batch& c, const V8& n, F8 spread, const Lanes& lanes) {
   ContactRows& r = c.rows;
   const V8 t1 = V8::load(r.tangent), t2 = cross(n, t1);
   const V8 center_a = V8::load(r.center_a), center_b = V8::load(r.center_b);
@@ -220,7 +246,7 @@ inline void solveFriction(Batch& c, const V8& n, F8 spread) {
     const F8 length2 = x1 * x1 + x2 * x2;
     const F8 scale =
         select(length2 > limit * limit, limit / max(sqrt(length2), F8::set(1e-30f)), F8::set(1.0f));
-    x1 = scale * x1, x2 = scale * x2;
+    x1 = lanes.choose(scale * x1, old1), x2 = lanes.choose(scale * x2, old2);
     x1.store(p.tangent_impulse[0]);
     x2.store(p.tangent_impulse[1]);
     apply(c, (x1 - old1) * t1 + (x2 - old2) * t2, arm_a, arm_b);
@@ -233,8 +259,34 @@ inline void relax(ContactRows* rows, uint32_t count, SolverBody* bodies, const C
     Batch c(rows[k], bodies);
     const V8 n = V8::load(rows[k].normal);
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
-      relaxNormals(c, n, inv_h);
-      solveFriction(c, n, spread);
+      relaxNormals(c, n, inv_h, AllLanes{});
+      solveFriction(c, n, spread, AllLanes{});
+    }
+    c.store();
+  }
+}
+
+// Sweeps over the points of a new contact. Nothing is known of its impulses yet, and what the first sub-step does not find
+// of the normal ones is missing in the friction too: a box set on a slope would start with a slip. Impacts are no such
+// contacts: they are not to be stopped before they bounce.
+inline constexpr int kFirstSweeps = 16;
+
+inline F8 comesSlowly(const ContactRows& r, float threshold) {
+  F8 fastest = F8::zero();
+  for (uint32_t i = 0; i < r.num_points; ++i) fastest = min(fastest, F8::load(r.points[i].approach_speed));
+  return fastest > F8::set(-threshold);
+}
+
+inline void settle(ContactRows* rows, uint32_t count, SolverBody* bodies, const ContactSolveParams& params) {
+  const F8 inv_h = F8::set(params.inv_h), spread = F8::set(params.friction_spread);
+  for (uint32_t k = 0; k < count; ++k) {
+    if (rows[k].is_new == 0) continue;
+    Batch c(rows[k], bodies);
+    const V8 n = V8::load(rows[k].normal);
+    const SomeLanes lanes{laneMask(rows[k].is_new) & comesSlowly(rows[k], params.restitution_threshold)};
+    for (int sweep = 0; sweep < kFirstSweeps; ++sweep) {
+      relaxNormals(c, n, inv_h, lanes);
+      solveFriction(c, n, spread, lanes);
     }
     c.store();
   }

@@ -19,6 +19,11 @@ void fillPoint(ContactPointRows& p, int lane, const ContactPoint& point) {
   p.normal_impulse[lane] = point.normal_impulse;
 }
 
+bool isNew(const ContactManifold& m) {
+  return std::none_of(m.points.begin(), m.points.begin() + m.num_points,
+                      [](const ContactPoint& p) { return p.normal_impulse > 0.0f; });
+}
+
 }  // namespace
 
 void fillContactRows(ContactRows& rows, std::span<const ContactConstraint* const> constraints,
@@ -46,6 +51,7 @@ void fillContactRows(ContactRows& rows, std::span<const ContactConstraint* const
     rows.turns_b[lane] = c.round_b ? 0.0f : 1.0f;
     rows.friction[lane] = c.friction;
     rows.restitution[lane] = c.restitution;
+    rows.is_new |= uint32_t(isNew(m)) << lane;
     for (int i = 0; i < m.num_points; ++i) fillPoint(rows.points[i], lane, m.points[i]);
   }
 }

@@ -195,6 +195,9 @@ void SoftStep::solve(std::span<SolverBody> bodies, std::span<BodyMotion> motions
   for (int i = 0; i < params.substeps; ++i) {
     forBodies(bodies, motions, tasks, [&](auto b, auto m) { integrateVelocities(b, m, params.h); });
     if (i == 0 && params.warm_start) warmStart(kernels, bodies, motions, params, joints, tasks);
+    // not with joints, whose share of the load nobody knows yet
+    if (i == 0 && joints.empty()) run(kernels.settle, bodies, tasks);
+    forBodies(bodies, motions, tasks, [&](auto b, auto m) { setLag(b, m, params.h); });
     if (!joints.empty()) joints.start(bodies, i == 0, tasks);
     push(kernels, bodies, joints, tasks);
     forBodies(bodies, motions, tasks, [&](auto b, auto m) { integratePositions(b, m, params.h); });

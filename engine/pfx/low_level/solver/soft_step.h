@@ -1,6 +1,6 @@
 // The default contact solver: sub-steps of soft constraints with a relax pass.
 //
-//   for each sub-step: integrate velocities -> [warm start] -> push -> integrate positions -> relax
+//   for each sub-step: integrate velocities -> [warm start -> settle] -> push -> integrate positions -> relax
 //   at the end:        restitution
 //
 // The impulses of the last step are a guess. They balance each other as long as nothing has changed; where a body was
