@@ -67,7 +67,7 @@ const std::array kHeroWay = {
     Leg{.to = {-0.45f, 0.0f, 4.0f}, .until = Until::Time, .seconds = 0.9f},      // onto it
     Leg{.to = {}, .speed = 0.0f, .until = Until::PlatformFar, .seconds = 9.0f},  // carried
     Leg{.to = {4.2f, 0.0f, 4.0f}},
-    Leg{.to = {4.2f, 0.0f, 1.6f}, .seconds = 3.0f},                        // down the chute
+    Leg{.to = {4.2f, 0.0f, 1.6f}, .speed = 0.3f, .seconds = 4.0f},         // slowly, to slide down the chute
     Leg{.to = {4.2f, 0.0f, 3.5f}, .until = Until::Time, .seconds = 2.0f},  // not up it
     Leg{.to = {2.8f, 0.0f, 0.3f}},
     Leg{.to = {-1.4f, 0.0f, 0.0f}, .seconds = 3.0f, .run = true},  // through the boxes

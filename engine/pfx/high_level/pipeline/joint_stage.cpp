@@ -100,7 +100,7 @@ namespace stage {
 
 void countGears(World::Impl& w) {
   for (const JointComponent* c : w.joint_step.components())
-    if (!c->is_direct) countTurns(w, *c);
+    if (c->is_soft && c->has_gears) countTurns(w, *c);
 }
 
 void gatherJoints(World::Impl& w) {

@@ -12,7 +12,7 @@ namespace {
 struct Content {
   const WorldDef& def;
   bool several = false, dynamic = false, scripted = false;  // bodies
-  bool joints = false, particles = false, moving_meshes = false;
+  bool joints = false, gears = false, particles = false, moving_meshes = false;
 
   bool mayMeet() const { return several && (dynamic || scripted); }
   bool mayTouch() const { return several && dynamic; }
@@ -29,7 +29,11 @@ Content contentOf(const World& world) {
     c.scripted |= !isDynamic(type) && type != MotionType::Fixed;
   }
   c.several = bodies > 1;
-  c.joints = std::ranges::any_of(world.jointLinks(), [](const JointLink& j) { return j.exists; });
+  for (uint32_t i = 0; i < world.joints().size(); ++i) {
+    if (!world.jointLinks()[i].exists) continue;
+    c.joints = true;
+    c.gears |= world.joints()[i].kind == JointKind::Gear;
+  }
   for (uint32_t i = 0; i < world.numParticleSystems(); ++i) c.particles |= world.particles(i) != nullptr;
   c.moving_meshes = world.deformations() > 0;
   return c;
@@ -41,6 +45,7 @@ bool pairs(const Content& c) { return c.mayMeet(); }
 bool contacts(const Content& c) { return c.mayTouch(); }
 bool constraints(const Content& c) { return c.mayTouch() || c.joints; }
 bool joints(const Content& c) { return c.joints; }
+bool gears(const Content& c) { return c.gears; }
 bool moveableJoints(const Content& c) { return c.joints && c.dynamic; }
 bool dynamicBodies(const Content& c) { return c.dynamic; }
 bool scriptedBodies(const Content& c) { return c.scripted; }
@@ -76,6 +81,7 @@ constexpr std::array kConditions = {
     Condition{"solver set-up", constraints},
     Condition{"solve", constraints},
     Condition{"write back", constraints},
+    Condition{"gears", gears},
     Condition{"break joints", joints},
     Condition{"key frames", scriptedBodies},
     Condition{"continuous", pairs},

@@ -14,7 +14,7 @@ bool hasSeveralBodies(const World::Impl& w) { return w.store.count() > 1; }
 bool hasPairs(const World::Impl& w) { return !w.pairs.empty(); }
 bool hasConstraints(const World::Impl& w) { return !w.constraints.empty() || !w.joint_step.empty(); }
 bool hasContacts(const World::Impl& w) { return !w.constraints.empty(); }
-bool hasSoftJoints(const World::Impl& w) { return w.joint_step.hasSoft(); }
+bool hasSoftGears(const World::Impl& w) { return w.joint_step.hasSoftGears(); }
 bool hasJoints(const World::Impl& w) { return w.joint_store.count() > 0; }
 // A world that remembers nothing keeps to the plain solver, unless it is told otherwise.
 bool mayNeedNewton(const World::Impl& w) {
@@ -54,7 +54,7 @@ constexpr std::array kSimple = {
     Stage{"solver set-up", hasConstraints, stage::setUpSolver},
     Stage{"solve", hasConstraints, stage::solve},
     Stage{"write back", hasConstraints, stage::writeBack},
-    Stage{"gears", hasSoftJoints, stage::countGears},
+    Stage{"gears", hasSoftGears, stage::countGears},
     Stage{"break joints", hasJoints, stage::breakJoints},
     Stage{"key frames", hasKeyframes, stage::followKeyframes},
     Stage{"continuous", hasPairs, stage::stopAtImpacts},
@@ -77,7 +77,7 @@ constexpr std::array kStable = {
     Stage{"solver set-up", hasConstraints, stage::setUpSolver},
     Stage{"solve", hasConstraints, stage::solve},
     Stage{"write back", hasConstraints, stage::writeBack},
-    Stage{"gears", hasSoftJoints, stage::countGears},
+    Stage{"gears", hasSoftGears, stage::countGears},
     Stage{"break joints", hasJoints, stage::breakJoints},
     Stage{"key frames", hasKeyframes, stage::followKeyframes},
     Stage{"continuous", hasPairs, stage::stopAtImpacts},

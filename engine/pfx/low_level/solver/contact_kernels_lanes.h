@@ -277,13 +277,27 @@ inline F8 comesSlowly(const ContactRows& r, float threshold) {
   return fastest > F8::set(-threshold);
 }
 
+// Lanes with a point that would be too close after the sub-step. Contacts that bear nothing are always new.
+inline F8 isPressed(Batch& c, const V8& n, F8 inv_h) {
+  const F8 zero = F8::zero();
+  F8 least = zero;
+  for (uint32_t i = 0; i < c.rows.num_points; ++i) {
+    const ContactPointRows& p = c.rows.points[i];
+    const F8 vn = dot(n, relativeVelocity(c, V8::load(p.arm_a), V8::load(p.arm_b)));
+    least = min(least, (vn + max(F8::load(p.separation), zero) * inv_h) & (F8::load(p.normal_mass) > zero));
+  }
+  return least < zero;
+}
+
 inline void settle(ContactRows* rows, uint32_t count, SolverBody* bodies, const ContactSolveParams& params) {
   const F8 inv_h = F8::set(params.inv_h), spread = F8::set(params.friction_spread);
   for (uint32_t k = 0; k < count; ++k) {
     if (rows[k].is_new == 0) continue;
     Batch c(rows[k], bodies);
     const V8 n = V8::load(rows[k].normal);
-    const SomeLanes lanes{laneMask(rows[k].is_new) & comesSlowly(rows[k], params.restitution_threshold)};
+    const F8 settles = laneMask(rows[k].is_new) & comesSlowly(rows[k], params.restitution_threshold);
+    const SomeLanes lanes{settles & isPressed(c, n, inv_h)};
+    if (!anyTrue(lanes.mask)) continue;
     for (int sweep = 0; sweep < kFirstSweeps; ++sweep) {
       relaxNormals(c, n, inv_h, lanes);
       solveFriction(c, n, spread, lanes);

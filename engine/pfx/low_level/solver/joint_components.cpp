@@ -68,6 +68,7 @@ void JointComponents::addComponent(std::span<const uint32_t> joints, JointSolver
   for (uint32_t i : joints) {
     const JointConstraint& j = joints_[i];
     c.joints.push_back(j);
+    c.has_gears = c.has_gears || j.joint->kind == JointKind::Gear;
     c.bodies.insert(c.bodies.end(), {j.body_a, j.body_b});
     inner += j.writable_a && j.writable_b;
     if (j.writable_a) movable.push_back(j.body_a);

@@ -18,6 +18,7 @@ namespace pfx {
 struct JointComponent {
   bool is_direct = false;  // has a factor
   bool is_soft = true;     // in this step
+  bool has_gears = false;
   DirectComponent direct;  // when is_direct
   std::vector<JointConstraint> joints;
   std::vector<uint32_t> bodies;        // indices of states, ascending, movable or not

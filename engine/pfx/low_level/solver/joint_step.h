@@ -1,6 +1,7 @@
 // The joints' part of the sub-step loop: components that are solved together with contacts, and soft joints.
 #pragma once
 
+#include <algorithm>
 #include <span>
 #include <vector>
 
@@ -15,7 +16,9 @@ class JointStep {
   void clear();
   void add(JointComponent& component);
   bool empty() const { return components_.empty(); }
-  bool hasSoft() const { return components_.size() > direct_.size(); }
+  bool hasSoftGears() const {
+    return std::ranges::any_of(components_, [](const JointComponent* c) { return c->is_soft && c->has_gears; });
+  }
   std::span<JointComponent* const> components() { return components_; }
 
   // Takes over what the components need of the step; solver_index of the components is set, and direct

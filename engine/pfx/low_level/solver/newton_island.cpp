@@ -10,8 +10,8 @@ namespace {
 constexpr double kStiffening = 8.0;
 constexpr int kMostStiffenings = 7;
 
-// No body leaves an island at more than this many times the largest speed before, and the push speed besides.
-constexpr double kMostGain = 4.0;
+// No body leaves an island at more than this many times the largest speed before, and this speed (m/s) besides.
+constexpr double kMostGain = 4.0, kMostSpeed = 3.0;
 
 // Displacement of the end of `arm` by the turn since the start of the step; on a round body only what a
 // rolling contact point follows, see contactShift in contact_kernels_lanes.h.
@@ -264,7 +264,7 @@ double NewtonIsland::fastest() const {
 bool NewtonIsland::advance(std::span<RigidState> states) {
   double fall = 0.0;
   for (const DirectBody& b : bodies_) fall = std::max(fall, params_.h * params_.substeps * b.acceleration.norm());
-  const double limit = kMostGain * (fastest() + fall) + params_.max_push_speed;
+  const double limit = kMostGain * (fastest() + fall) + kMostSpeed;
   for (int i = 0; i < params_.substeps; ++i) {
     startSubstep();
     setBias(true);

@@ -40,8 +40,8 @@ float surfaceSpeed(float approach, float separation, float acceleration) {
 // Rounds in which guesses are forgotten; whatever still throws a body then goes with all others.
 constexpr int kMostRounds = 4;
 
-// A guess may change the velocity of a body by this many times what the body has, and by the push speed besides.
-constexpr float kMostGain = 2.0f;
+// A guess may change the velocity of a body by this many times what the body has, and by this speed (m/s) besides.
+constexpr float kMostGain = 2.0f, kMostSpeed = 5.0f;
 
 Vec3 vectorOf(const float (&a)[3]) { return Vec3(a[0], a[1], a[2]); }
 
@@ -53,12 +53,12 @@ Vec3 freeSpin(const SolverBody& b, const BodyMotion& m) {
               i[2] * l.x() + i[4] * l.y() + i[5] * l.z());
 }
 
-bool isMisled(const SolverBody& b, const BodyMotion& m, float most) {
+bool isMisled(const SolverBody& b, const BodyMotion& m) {
   if (!m.inertia) return false;
-  if (!((vectorOf(b.v) - m.free_velocity).norm() <= most + kMostGain * m.free_velocity.norm())) return true;
+  if (!((vectorOf(b.v) - m.free_velocity).norm() <= kMostSpeed + kMostGain * m.free_velocity.norm())) return true;
   const Vec3 spin = freeSpin(b, m);
   const float radius = std::sqrt(m.inertia->body.trace() / 3.0f * b.inv_mass);
-  return !(radius * (vectorOf(b.w) - spin).norm() <= most + kMostGain * radius * spin.norm());
+  return !(radius * (vectorOf(b.w) - spin).norm() <= kMostSpeed + kMostGain * radius * spin.norm());
 }
 
 void takeBackGuess(std::span<SolverBody> bodies, std::span<const BodyMotion> motions) {
@@ -140,10 +140,10 @@ void SoftStep::run(ContactKernels::Fn kernel, std::span<SolverBody> bodies, Task
   }
 }
 
-bool SoftStep::findMisled(std::span<const SolverBody> bodies, std::span<const BodyMotion> motions, float most,
+bool SoftStep::findMisled(std::span<const SolverBody> bodies, std::span<const BodyMotion> motions,
                           JointStep& joints) {
   misled_.assign(bodies.size(), 0);
-  for (size_t i = 0; i < motions.size(); ++i) misled_[i] = isMisled(bodies[i], motions[i], most);
+  for (size_t i = 0; i < motions.size(); ++i) misled_[i] = isMisled(bodies[i], motions[i]);
   for (const JointComponent* c : joints.components())
     for (uint32_t i : c->solver_index) misled_[i] = 0;
   return std::find(misled_.begin(), misled_.end(), uint8_t{1}) != misled_.end();
@@ -163,10 +163,9 @@ void SoftStep::forgetMisled() {
 }
 
 void SoftStep::warmStart(const ContactKernels& kernels, std::span<SolverBody> bodies,
-                         std::span<const BodyMotion> motions, const SoftStepParams& params, JointStep& joints,
-                         TaskManager& tasks) {
+                         std::span<const BodyMotion> motions, JointStep& joints, TaskManager& tasks) {
   run(kernels.warm_start, bodies, tasks);
-  for (int round = 0; findMisled(bodies, motions, params.max_push_speed, joints); ++round) {
+  for (int round = 0; findMisled(bodies, motions, joints); ++round) {
     if (round == kMostRounds) std::fill(misled_.begin(), misled_.end(), uint8_t{1});
     forgetMisled();
     takeBackGuess(bodies.first(motions.size()), motions);
@@ -180,7 +179,7 @@ void SoftStep::warmStart(const ContactKernels& kernels, std::span<SolverBody> bo
 void SoftStep::push(const ContactKernels& kernels, std::span<SolverBody> bodies, JointStep& joints,
                     TaskManager& tasks) {
   if (joints.empty()) return run(kernels.push, bodies, tasks);
-  const int turns = lanes_.empty() ? 1 : 3;
+  const int turns = lanes_.empty() ? 1 : 4;
   for (int turn = 0; turn < turns; ++turn) {
     joints.push(bodies, tasks);
     run(kernels.push, bodies, tasks);
@@ -194,7 +193,7 @@ void SoftStep::solve(std::span<SolverBody> bodies, std::span<BodyMotion> motions
     if (rows_[b].has_restitution) measureAtSurface(rows_[b], motions, params.restitution_threshold);
   for (int i = 0; i < params.substeps; ++i) {
     forBodies(bodies, motions, tasks, [&](auto b, auto m) { integrateVelocities(b, m, params.h); });
-    if (i == 0 && params.warm_start) warmStart(kernels, bodies, motions, params, joints, tasks);
+    if (i == 0 && params.warm_start) warmStart(kernels, bodies, motions, joints, tasks);
     // not with joints, whose share of the load nobody knows yet
     if (i == 0 && joints.empty()) run(kernels.settle, bodies, tasks);
     forBodies(bodies, motions, tasks, [&](auto b, auto m) { setLag(b, m, params.h); });

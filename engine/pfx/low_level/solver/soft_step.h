@@ -63,8 +63,8 @@ class SoftStep {
   };
   void makeBatches(std::span<const ContactConstraint> constraints);
   void warmStart(const ContactKernels& kernels, std::span<SolverBody> bodies, std::span<const BodyMotion> motions,
-                 const SoftStepParams& params, JointStep& joints, TaskManager& tasks);
-  bool findMisled(std::span<const SolverBody> bodies, std::span<const BodyMotion> motions, float most, JointStep& joints);
+                 JointStep& joints, TaskManager& tasks);
+  bool findMisled(std::span<const SolverBody> bodies, std::span<const BodyMotion> motions, JointStep& joints);
   void forgetMisled();
   void push(const ContactKernels& kernels, std::span<SolverBody> bodies, JointStep& joints, TaskManager& tasks);
   void run(ContactKernels::Fn kernel, std::span<SolverBody> bodies, TaskManager& tasks);
