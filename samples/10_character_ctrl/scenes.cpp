@@ -334,7 +334,7 @@ std::vector<SceneEntry> characterScenes() {
            "state; arrows, Shift, Space and Ctrl take over",
        .camera =
            {.target = Vec3(-0.6f, 0.3f, 0.2f), .distance = 15.5f, .yaw_deg = 200.0f, .pitch_deg = 32.0f},
-       .frames = {240, 640, 1490},
+       .frames = {240, 640, 1612},
        .world = {},
        .make = make<CourseScene>},
       {.sample = sample,
