@@ -233,11 +233,13 @@ bool overhangStands(int blocks, double share) {
                  .shapes = {{Box{Vec3(0.5f, 0.1f, 0.5f)}}},
                  .restitution = 0.0f,
                  .friction = 0.6f});
-  for (int k = blocks; k-- > 0;)
-    world.addBody({.pose = {.position = Vec3(static_cast<float>(places[static_cast<size_t>(k)]), 1.2f + 0.2f * static_cast<float>(blocks - 1 - k), 0)},
+  for (int k = blocks; k-- > 0;) {
+    const auto x = static_cast<float>(places[static_cast<size_t>(k)]), y = 1.2f + 0.2f * static_cast<float>(blocks - 1 - k);
+    world.addBody({.pose = {.position = Vec3(x, y, 0)},
                    .shapes = {{Box{Vec3(0.5f, 0.1f, 0.5f)}}},
                    .restitution = 0.0f,
                    .friction = 0.6f});
+  }
   const float height = world.states().back().position.y();
   run(world, 5.0);
   return height - world.states().back().position.y() < 0.02f;
