@@ -234,8 +234,8 @@ bool overhangStands(int blocks, double share) {
                  .restitution = 0.0f,
                  .friction = 0.6f});
   for (int k = blocks; k-- > 0;) {
-    const auto x = static_cast<float>(places[static_cast<size_t>(k)]), y = 1.2f + 0.2f * static_cast<float>(blocks - 1 - k);
-    world.addBody({.pose = {.position = Vec3(x, y, 0)},
+    const auto left = static_cast<float>(places[static_cast<size_t>(k)]), up = 1.2f + 0.2f * static_cast<float>(blocks - 1 - k);
+    world.addBody({.pose = {.position = Vec3(left, up, 0)},
                    .shapes = {{Box{Vec3(0.5f, 0.1f, 0.5f)}}},
                    .restitution = 0.0f,
                    .friction = 0.6f});
