@@ -54,6 +54,8 @@ class Scene {
   virtual void beforeStep(pfx::World& world, float dt) { (void)world, (void)dt; }  // scripted motion
   virtual void afterStep(pfx::World& world, float dt) { (void)world, (void)dt; }
   virtual void draw(const pfx::World& world, Canvas& canvas) const { (void)world, (void)canvas; }
+  // By body: what its solids are drawn in; 0 or missing: the colour of its state.
+  virtual std::vector<pfx::Color> bodyColors(const pfx::World& world) const { return (void)world, std::vector<pfx::Color>(); }
 
   // Hash of what the scene simulates besides the world; 0 when there is nothing.
   virtual uint64_t stateHash() const { return 0; }

@@ -25,9 +25,19 @@ struct SideBySide final : Scene {
   void afterStep(World&, float dt) override { forgetful_.step(dt); }
 
   void draw(const World& world, Canvas& canvas) const override {
-    drawTower(world, {"remembers contacts", Vec3::Zero()}, canvas);
-    drawTower(forgetful_, {"remembers nothing", Vec3(20.0f, 0.0f, 0.0f)}, canvas);
+    constexpr float kBeside = 20.0f;  // m
+    drawTitle("remembers contacts", world, Vec3::Zero(), canvas);
+    drawTitle("remembers nothing", forgetful_, Vec3(kBeside, 0.0f, 0.0f), canvas);
+    const std::vector<Color> colors = driftColors(forgetful_, drift_);
+    for (uint32_t i = drift_.firstBody(); i < colors.size(); ++i) {
+      if (colors[i] == 0) continue;
+      const RigidState& s = forgetful_.states()[i];
+      canvas.solid(forgetful_.collidables()[i].shapes()[0].geometry,
+                   {s.position + Vec3(kBeside, 0.0f, 0.0f), s.orientation}, {colors[i]});
+    }
   }
+
+  std::vector<Color> bodyColors(const World& world) const override { return driftColors(world, drift_); }
 
   uint64_t stateHash() const override { return forgetful_.stateHash(); }
 
@@ -37,21 +47,15 @@ struct SideBySide final : Scene {
   }
 
  private:
-  struct Place {
-    std::string title;
-    Vec3 offset;
-  };
-
   static void buildTower(World& world) {
     addGround(world);
     addTower(world, kSize);
   }
 
-  void drawTower(const World& world, const Place& place, Canvas& canvas) const {
-    drawDrift(world, drift_, place.offset, canvas);
+  void drawTitle(std::string_view title, const World& world, const Vec3& offset, Canvas& canvas) const {
     const float top = 2.0f * static_cast<float>(kSize.layers) * kSize.half_extent;
-    canvas.label(place.offset + Vec3(0.0f, top + 3.0f, 0.0f), place.title);
-    canvas.label(place.offset + Vec3(0.0f, top + 1.6f, 0.0f), "drift " + millimetres(drift_.largest(world)));
+    canvas.label(offset + Vec3(0.0f, top + 3.0f, 0.0f), title);
+    canvas.label(offset + Vec3(0.0f, top + 1.6f, 0.0f), "drift " + millimetres(drift_.largest(world)));
   }
 
   World forgetful_;

@@ -80,9 +80,12 @@ struct Joints final : Scene, AllInWorld {
 // A stack says how far it has come from where it was built.
 struct Stack : Scene, AllInWorld {
   void draw(const World& world, Canvas& canvas) const override {
-    if (!world.def().sleeping) drawDrift(world, drift_, Vec3::Zero(), canvas);  // there colours tell who sleeps
     const Vec3 above = top_ + Vec3(0.0f, 1.6f, 0.0f);
     canvas.label(above, "drift " + millimetres(drift_.largest(world)));
+  }
+  std::vector<Color> bodyColors(const World& world) const override {
+    if (world.def().sleeping) return {};  // there colours tell who sleeps
+    return driftColors(world, drift_);
   }
   std::vector<Reading> readings(const World& world) const override {
     return {{"largest drift of a box", "mm", 1e3 * static_cast<double>(drift_.largest(world))}};

@@ -23,17 +23,15 @@ float Drift::largest(const World& world) const {
   return most;
 }
 
-void drawDrift(const World& world, const Drift& drift, const Vec3& offset, Canvas& canvas) {
-  constexpr float kReddest = 0.6f;   // m
-  constexpr float kCover = 1.002f;  // a hair larger than the boxes, which it hides
-  for (uint32_t i = drift.firstBody(); i < world.states().size(); ++i) {
-    const Box* box = std::get_if<Box>(&world.collidables()[i].shapes()[0].geometry);
-    if (box == nullptr || !isDynamic(world.states()[i].motion_type)) continue;
+std::vector<Color> driftColors(const World& world, const Drift& drift) {
+  constexpr float kReddest = 0.6f;  // m
+  std::vector<Color> colors(world.states().size(), 0);
+  for (uint32_t i = drift.firstBody(); i < colors.size(); ++i) {
+    if (!isDynamic(world.states()[i].motion_type)) continue;
     const float share = std::min(drift.of(world, i) / kReddest, 1.0f);
-    const Color color = hsvColor(0.11f * (1.0f - share), 0.3f + 0.5f * share, 0.88f);
-    const RigidState& s = world.states()[i];
-    canvas.solid(Box{kCover * box->half_extent}, {s.position + offset, s.orientation}, {color, Finish::Soft});
+    colors[i] = hsvColor(0.11f * (1.0f - share), 0.3f + 0.5f * share, 0.88f);
   }
+  return colors;
 }
 
 std::string millimetres(float metres) {

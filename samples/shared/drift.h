@@ -24,8 +24,8 @@ class Drift {
   std::vector<pfx::Vec3> start_;
 };
 
-// Paints boxes (bodies of one box) over by how far they have come, from cream to red; `offset` (m) moves the picture.
-void drawDrift(const pfx::World& world, const Drift& drift, const pfx::Vec3& offset, Canvas& canvas);
+// By body: from cream to red by how far it has come; 0 of those that are not watched or cannot move.
+std::vector<pfx::Color> driftColors(const pfx::World& world, const Drift& drift);
 
 // "12 mm", or "0.4 mm" for a small one.
 std::string millimetres(float metres);

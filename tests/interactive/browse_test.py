@@ -58,6 +58,8 @@ class BrowserTest(unittest.TestCase):
         self.start("2_stable/tower")
 
     def tearDown(self):
+        # The display outlives a test that failed with a key or a button held down.
+        self.xdo("keyup", "ctrl", "mouseup", "1")
         if self.browser.poll() is None:
             self.browser.kill()
         self.browser.wait()

@@ -177,6 +177,23 @@ TEST(Overlays, NamesAreReadBackAndUnknownOnesRefused) {
   EXPECT_THROW(parseOverlays("limit"), InputError);
 }
 
+TEST(WorldView, ColorsOfASceneAreWornByTheBodiesThemselvesSoThatTheyCanBePicked) {
+  const Everything e;
+  constexpr Color kRed = 0xffc03020;
+  ViewExtras extras;
+  const DrawList plain = e.drawn({}, extras);
+  extras.body_colors.assign(e.world.states().size(), 0);
+  extras.body_colors[e.box.index] = kRed;
+  const DrawList list = e.drawn({}, extras);
+  ASSERT_EQ(list.numInstances(), plain.numInstances());
+  for (const auto& [key, batch] : list.batches())
+    for (size_t i = 0; i < batch.instances.size(); ++i) {
+      const Instance &now = batch.instances[i], &before = plain.batches().at(key).instances[i];
+      EXPECT_EQ(now.color, now.pick == pickId(PickKind::Body, e.box.index) ? kRed : before.color);
+      EXPECT_EQ(now.pick, before.pick);
+    }
+}
+
 TEST(WorldView, MarksOfOneTriangleAreDrawnUntilTheyAreTakenBack) {
   const Everything e;
   DrawList list;

@@ -127,6 +127,7 @@ void Browser::record() {
     const Ray ray = mouseRay(mouse_x_, mouse_y_);
     extras.probe = ProbeRay{ray.origin, ray.direction};
   }
+  extras.body_colors = session_.scene().bodyColors(session_.world());
   view_->add(session_.world(), settings_.overlays, extras);
   if (selected_.kind == PickKind::Triangle)
     view_->addTriangle(session_.world(), selected_.body.index, selected_.facet, kSelectedColor);

@@ -30,6 +30,7 @@ Image Capture::draw(const SceneRun& run, const samples::CameraPose& camera, cons
   extras.trails = &trails;
   const Camera& eye = list.camera;
   extras.probe = ProbeRay{eye.eye, 10.0f * (eye.target - eye.eye)};
+  extras.body_colors = run.scene().bodyColors(run.world());
   view.add(run.world(), settings_.overlays, extras);
   ListCanvas canvas(list);
   run.scene().draw(run.world(), canvas);

@@ -153,7 +153,7 @@ void WorldView::add(const pfx::World& world, const Overlays& overlays, const Vie
   debug_.resetVisible(uint32_t(states.size()));
   for (uint32_t body = 0; body < states.size(); ++body)
     debug_.setVisible(body, world.isValid(world.bodyId(body)));
-  recorder_.body_colors = overlays.islands ? islandColors(world) : std::vector<Color>();
+  recorder_.body_colors = overlays.islands ? islandColors(world) : extras.body_colors;
   debug_.renderSolids(states, world.collidables());
   if (overlays == Overlays{} && marks_.empty()) return;
 

@@ -17,6 +17,7 @@ struct ViewExtras {
   std::vector<uint8_t> selected = {};  // by body; empty: nothing is selected
   const Trails* trails = nullptr;
   std::optional<ProbeRay> probe = {};
+  std::vector<Color> body_colors = {};  // by body, of its solids; 0 or missing: by its state
 };
 
 class WorldView {
