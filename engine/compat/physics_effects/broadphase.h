@@ -153,6 +153,7 @@ PfxInt32 pfxDecomposePairs(PfxDecomposePairsParam& param, PfxDecomposePairsResul
 
 // Six numbers of 21 bits in the first 16 bytes of a proxy: lower ends, then upper ends.
 #define SCE_PFX_PROXY_GRID_MAX_ 0x1fffffu
+
 inline PfxUInt32 pfxGetXYZMin(const PfxBroadphaseProxy& p, int axis) {
   const PfxUInt64 low = PfxUInt64(p.get32(1)) << 32 | p.get32(0);
   return static_cast<PfxUInt32>(low >> 21 * axis) & SCE_PFX_PROXY_GRID_MAX_;
