@@ -394,7 +394,7 @@ void takeOver(World::Impl& w, World::Impl& from, const Memory& memory) {
   w.island_link_pairs.clear();
   w.island_pairs.clear();
   w.tree_is_current = false;
-  w.counts_are_current = false;
+  w.forgetCounts();
   w.modified.clear();
   w.times.clear();
   rememberRows(w, memory.rows);

@@ -36,7 +36,7 @@ void World::Impl::refreshActive() {
 void World::Impl::hasChanged(uint32_t body) {
   active_changed = true;
   tree_is_current = false;
-  counts_are_current = false;
+  forgetCounts();
   changed_bodies.push_back(body);
 }
 
@@ -68,7 +68,9 @@ void World::Impl::linkIslands() {
 }
 
 // The links of all islands, in the order in which the islands keep them, as indices of pairs.
-void World::Impl::listIslandPairs() {
+void World::Impl::listIslands() {
+  if (std::exchange(islands_are_current, true)) return;
+  linkIslands();
   island_pairs.clear();
   for (uint32_t k = 0; k < islands.size(); ++k)
     for (uint32_t link : islands.links(k))
@@ -126,8 +128,8 @@ void World::step(float dt) {
     throw std::invalid_argument("world: dt = " + std::to_string(dt) + " s, must be >= 0");
   if (dt == 0.0f) return;
   impl_->dt = dt;
-  impl_->counts_are_current = false;
   runStages(*impl_);
+  impl_->forgetCounts();
   ++impl_->step_count;
 }
 
@@ -170,7 +172,7 @@ JointId World::addJoint(const JointDef& def) {
   impl_->wake(def.body_a.index);
   impl_->wake(def.body_b.index);
   impl_->revivePairs();
-  impl_->counts_are_current = false;
+  impl_->forgetCounts();
   const auto states = impl_->store.states.begin();
   return impl_->joint_store.add(def, makeJoint(states[def.body_a.index], states[def.body_b.index], def.params));
 }
@@ -181,7 +183,7 @@ void World::removeJoint(JointId id) {
   impl_->wake(link.body_a);
   impl_->wake(link.body_b);
   impl_->revivePairs();
-  impl_->counts_are_current = false;
+  impl_->forgetCounts();
   impl_->joint_store.remove(id.index);
 }
 
@@ -275,12 +277,12 @@ std::span<const ContactManifold> World::manifolds(const Pair& pair) const {
 }
 
 uint32_t World::numIslands() const {
-  impl_->linkIslands();
-  impl_->listIslandPairs();
+  impl_->listIslands();
   return impl_->islands.size();
 }
 
 IslandView World::island(uint32_t index) const {
+  impl_->listIslands();
   const auto bodies = impl_->islands.bodies(index);
   const RigidState& first = impl_->store.states[bodies.front()];
   const auto links = impl_->islands.links(index);

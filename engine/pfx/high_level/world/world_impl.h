@@ -156,7 +156,7 @@ struct World::Impl {
   std::vector<StageTime> times;
   uint64_t stages_run = 0;  // a bit for each of the pipeline, since the world was made
   WorldCounts counts;
-  bool counts_are_current = false;
+  bool counts_are_current = false, islands_are_current = false;  // of what is told about the world
 
   bool solves(const Pair& pair) const;
   ContactStrain strainOf(const ContactConstraint& constraint) const;  // solver_a, solver_b are indices of states
@@ -167,7 +167,8 @@ struct World::Impl {
   void hasChanged(uint32_t body);      // from outside: it stands elsewhere, is new, or is gone
   QueryScene queryScene();             // for queries about the bodies as they are now
   void needSolverBody(uint32_t body);  // the solver will work on it
-  void listIslandPairs();
+  void listIslands();                  // with their pairs, for those who look at them
+  void forgetCounts() { counts_are_current = islands_are_current = false; }
   void forgetPairs(uint32_t body);     // with their contacts; those that last are found anew
   void wake(uint32_t body);            // and its whole island
   void wakeNeighbours(uint32_t body);  // everything that it touches
