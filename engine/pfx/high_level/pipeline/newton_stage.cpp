@@ -19,6 +19,7 @@ namespace {
 // impulses do well enough with those that are no structure of a few parts.
 constexpr size_t kMostBodies = 128;
 constexpr size_t kMostLeaningBodies = 48;
+constexpr size_t kMostSmallBodies = 256;
 
 // Bodies of all islands of a step. A crowd of stacks is left to the sequential impulses as a whole: 196 pyramids of 55
 // boxes took seconds a step.
@@ -29,6 +30,11 @@ constexpr size_t kMostBodiesInAll = 300;
 constexpr float kLoad = 5.0f;
 constexpr float kMassRatio = 20.0f;
 constexpr float kLeaning = 0.95f;
+
+// Soft rows give way by a few times what a body falls from rest in a sub-step (g h^2), whatever its size; until a pile
+// of twenty layers carries its weight it sinks by fifty times as much. A contact whose lever is shorter than this many
+// of them is between small bodies.
+constexpr float kSmallFalls = 300.0f;
 
 // Contacts between bodies that move against each other by less than this (in sub-steps of free fall) are at
 // rest. An island needs this share of them: what tumbles is nothing to hold up.
@@ -51,6 +57,14 @@ NewtonParams newtonParams(const World::Impl& w) {
           .restitution_threshold = stage::restitutionThreshold(w)};
 }
 
+bool isSmall(const World::Impl& w, const ContactConstraint& c) {
+  if (c.round_a || c.round_b || c.manifold->num_points == 0) return false;
+  const ContactPoint& p = c.manifold->points[0];
+  const float lever = std::min(p.local_a.squaredNorm(), p.local_b.squaredNorm());
+  const float most = kSmallFalls * fallSpeed(w) * w.dt / static_cast<float>(w.def.substeps);
+  return lever < most * most;
+}
+
 // Whether every body that a constraint could move is moved by it, and none has a surface that moves by itself.
 bool isSymmetric(const World::Impl& w, const ContactConstraint& c) {
   return w.motionOf(c.solver_a) == nullptr && w.motionOf(c.solver_b) == nullptr &&
@@ -60,24 +74,26 @@ bool isSymmetric(const World::Impl& w, const ContactConstraint& c) {
 
 bool isAskedFor(const World::Impl& w, uint32_t island) {
   if (w.def.contact_solver == ContactSolver::Newton) return true;
+  const size_t size = w.contact_islands.bodies(island).size();
   const auto links = w.contact_islands.links(island);
-  size_t resting = 0;
-  const bool may_lean = w.contact_islands.bodies(island).size() <= kMostLeaningBodies;
+  size_t resting = 0, small = 0;
   bool loaded = false, leaning = false;
   for (uint32_t i : links) {
     const ContactConstraint& c = w.constraints[i];
     resting += isResting(w, c);
+    small += isSmall(w, c);
     loaded = loaded || c.strain == ContactStrain::Loaded;
-    leaning = leaning || (may_lean && c.strain == ContactStrain::Leaning);
+    leaning = leaning || c.strain == ContactStrain::Leaning;
   }
-  return (loaded || leaning) &&
+  const bool mostly_small = 2 * small > links.size();
+  return (mostly_small || (loaded && size <= kMostBodies) || (leaning && size <= kMostLeaningBodies)) &&
          static_cast<double>(resting) >= kRestingShare * static_cast<double>(links.size());
 }
 
 bool isEligible(const World::Impl& w, uint32_t island) {
   const auto links = w.contact_islands.links(island);
   if (links.empty() || links.back() >= w.constraints.size()) return false;  // the last ones are joints
-  if (w.contact_islands.bodies(island).size() > kMostBodies) return false;
+  if (w.contact_islands.bodies(island).size() > kMostSmallBodies) return false;
   return std::all_of(links.begin(), links.end(),
                      [&](uint32_t i) { return isSymmetric(w, w.constraints[i]); }) &&
          isAskedFor(w, island);
@@ -135,7 +151,8 @@ ContactStrain World::Impl::strainOf(const ContactConstraint& c) const {
   const float top = height > 0.0f ? mass_b : mass_a, bottom = height > 0.0f ? mass_a : mass_b;
   const bool leans = std::abs(height) < kLeaning * gravity;
   if (top > kMassRatio * bottom && !leans) return ContactStrain::Loaded;
-  return leans && !c.round_a && !c.round_b ? ContactStrain::Leaning : ContactStrain::None;
+  if (leans && !c.round_a && !c.round_b) return ContactStrain::Leaning;
+  return isSmall(*this, c) ? ContactStrain::Small : ContactStrain::None;
 }
 
 namespace stage {

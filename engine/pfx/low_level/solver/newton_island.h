@@ -49,6 +49,7 @@ class NewtonIsland {
 
  private:
   void addContact(const ContactConstraint& constraint);
+  double expectedLoad(const NewtonContact& contact) const;
   void setStiffness(NewtonPoint& point, const double (&inverse_mass)[2], double load) const;
   void makeStructure();
   void startSubstep();
