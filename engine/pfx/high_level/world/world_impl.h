@@ -38,6 +38,8 @@ struct NewtonTask {
   std::vector<uint32_t> bodies;  // indices of states, ascending, movable or not
   std::vector<BodyMotion> motions;
   std::vector<ContactConstraint> constraints;
+  std::vector<JointConstraint> joints;
+  std::vector<JointComponent*> components;  // of the joints
   bool is_solved = false;
 };
 
