@@ -37,6 +37,8 @@ struct NewtonTask {
   Vector<uint32_t> bodies;  // indices of states, ascending, movable or not
   Vector<BodyMotion> motions;
   Vector<ContactConstraint> constraints;
+  Vector<JointConstraint> joints;
+  Vector<JointComponent*> components;  // of the joints
   bool is_solved = false;
 };
 

@@ -117,30 +117,13 @@ void DirectComponent::begin(std::span<const RigidState> states, std::span<const 
   for (DirectJoint& j : joints_) beginRows(j, bodies_, params.substeps, params.warm_start);
 }
 
-// Change of the torque that a joint's force makes as the body turns: sym(F r^T) - (r . F) 1 at lever r.
-void DirectComponent::addStiffness(const DirectJoint& j) {
-  for (int side = 0; side < 2; ++side) {
-    if (!j.moves[side]) continue;
-    DirectBody& b = bodies_[j.body[side]];
-    Vec3d force = Vec3d::Zero();
-    for (int i = 0; i < j.num_rows; ++i) {
-      const double* m = j.jacobian[side][i];
-      force += static_cast<double>(j.joint->axis[j.row[i].axis].force) * Vec3d(m[0], m[1], m[2]);
-    }
-    const Vec3d arm = b.pose.orientation * (side == 0 ? j.joint->anchor_a : j.joint->anchor_b).cast<double>();
-    const Mat3d product = force * arm.transpose();
-    b.stiffness += 0.5 * (product + product.transpose());
-    b.stiffness.diagonal().array() -= arm.dot(force);
-  }
-}
-
 void DirectComponent::linearize(const DirectSubstep& s) {
   for (DirectBody& b : bodies_) {
     b.stiffness.setZero();
     updateInverseInertia(b, s.h, false);
   }
   for (DirectJoint& j : joints_) linearizeRows(j, bodies_, s);
-  for (const DirectJoint& j : joints_) addStiffness(j);
+  for (const DirectJoint& j : joints_) addStiffness(j, bodies_);
   double ratio = 0.0;
   for (const DirectBody& b : bodies_) ratio = std::max(ratio, stiffnessRatio(b, s.h));
   stiff_ = ratio > (stiff_ ? kResolvedAgain : kUnresolved);
@@ -314,15 +297,7 @@ void DirectComponent::rememberForces(double part) {
 }
 
 void DirectComponent::sumImpulses() {
-  for (DirectJoint& j : joints_) {
-    const Vec3d arm = bodies_[j.body[1]].pose.orientation * j.joint->anchor_b.cast<double>();
-    for (int k = 0; k < j.num_rows; ++k) {
-      const double* m = j.jacobian[1][k];
-      const Vec3d force(m[0], m[1], m[2]), torque(m[3], m[4], m[5]);
-      j.impulse_sum += j.row[k].impulse * force;
-      j.torque_sum += j.row[k].impulse * (torque - arm.cross(force));
-    }
-  }
+  for (DirectJoint& j : joints_) pfx::sumImpulses(j, bodies_);
 }
 
 void DirectComponent::advance(std::span<RigidState> states) {
@@ -423,14 +398,7 @@ void DirectComponent::solveVelocities(std::span<SolverBody> bodies, std::span<co
 }
 
 void DirectComponent::end() {
-  const double dt = params_.h * params_.substeps;
-  for (DirectJoint& j : joints_) {
-    j.joint->force = (j.impulse_sum / dt).cast<float>();
-    j.joint->torque = (j.torque_sum / dt).cast<float>();
-    if (j.joint->kind != JointKind::Gear) continue;
-    j.joint->gear_angle_a = static_cast<float>(j.turned.a);
-    j.joint->gear_angle_b = static_cast<float>(j.turned.b);
-  }
+  for (DirectJoint& j : joints_) reportForces(j, params_.h * params_.substeps);
 }
 
 }  // namespace pfx

@@ -59,7 +59,6 @@ class DirectComponent {
 
  private:
   void linearize(const DirectSubstep& s);
-  void addStiffness(const DirectJoint& j);
   void factor(double regularization);
   void solve();
   double fillResiduals(const DirectSubstep& s, bool velocity_only);

@@ -93,6 +93,15 @@ void measureNext(DirectJoint& j, std::span<const DirectBody> bodies, double h);
 // nothing is solved yet, rows only come in. Returns whether anything changed.
 bool updateRows(DirectJoint& j, std::span<DirectBody> bodies, bool velocity_only, bool first);
 
+// Adds to the stiffness of the bodies how the torque of the joint's forces changes as they turn.
+void addStiffness(const DirectJoint& j, std::span<DirectBody> bodies);
+
+// Adds the impulses of a sub-step to those of the step.
+void sumImpulses(DirectJoint& j, std::span<const DirectBody> bodies);
+
+// Writes what the joint reports of a step of dt seconds: its mean force and torque, and the angles of gears.
+void reportForces(const DirectJoint& j, double dt);
+
 // Speed that row `row` lacks, and as `tolerance` what of that counts as nothing.
 struct RowResidual {
   double speed;
