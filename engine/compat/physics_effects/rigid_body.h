@@ -59,6 +59,7 @@ class PfxRigidState {
 
   ePfxMotionType getMotionType() const { return static_cast<ePfxMotionType>(motion_type_); }
   void setMotionType(ePfxMotionType type) { motion_type_ = static_cast<PfxUInt8>(type); }
+  void setMotionType(PfxUInt8 type) { motion_type_ = type; }
   PfxUInt8 getMotionTypeMask() const { return static_cast<PfxUInt8>(1 << motion_type_); }
   PfxUInt8 getMotionMask() const {
     return static_cast<PfxUInt8>(1 << motion_type_ | (asleep_ ? SCE_PFX_MOTION_MASK_SLEEPING : 0));

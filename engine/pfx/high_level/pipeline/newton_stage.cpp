@@ -19,6 +19,7 @@ namespace {
 // impulses do well enough with those that are no structure of a few parts.
 constexpr size_t kMostBodies = 128;
 constexpr size_t kMostLeaningBodies = 48;
+constexpr size_t kMostSmallBodies = 256;
 // Where contacts touch joints with heavy loads. Chains fill no factor, and have nobody else to turn to.
 constexpr size_t kMostJointedBodies = 512;
 
@@ -31,6 +32,11 @@ constexpr size_t kMostBodiesInAll = 300;
 constexpr float kLoad = 5.0f;
 constexpr float kMassRatio = 20.0f;
 constexpr float kLeaning = 0.95f;
+
+// Soft rows give way by a few times what a body falls from rest in a sub-step (g h^2), whatever its size; until a pile
+// of twenty layers carries its weight it sinks by fifty times as much. A contact whose lever is shorter than this many
+// of them is between small bodies.
+constexpr float kSmallFalls = 300.0f;
 
 // Joints soften and share out loads that they can. Beside them a contact counts as strained from this many times the
 // weight of its lighter body on: a machine presses on what it holds.
@@ -61,6 +67,14 @@ NewtonParams newtonParams(const World::Impl& w) {
   return {.h = static_cast<double>(w.dt) / w.def.substeps,
           .substeps = w.def.substeps,
           .restitution_threshold = stage::restitutionThreshold(w)};
+}
+
+bool isSmall(const World::Impl& w, const ContactConstraint& c) {
+  if (c.round_a || c.round_b || c.manifold->num_points == 0) return false;
+  const ContactPoint& p = c.manifold->points[0];
+  const float lever = std::min(p.local_a.squaredNorm(), p.local_b.squaredNorm());
+  const float most = kSmallFalls * fallSpeed(w) * w.dt / static_cast<float>(w.def.substeps);
+  return lever < most * most;
 }
 
 // Whether every body that a constraint could move is moved by it, and none has a surface that moves by itself.
@@ -124,15 +138,19 @@ bool isAskedForBeside(World::Impl& w, uint32_t island, std::span<const uint32_t>
 bool isAskedForAlone(const World::Impl& w, uint32_t island) {
   const size_t bodies = w.contact_islands.bodies(island).size();
   const auto contacts = contactsOf(w, island);
-  const bool strained = std::ranges::any_of(contacts, [&](uint32_t i) {
+  const auto isStrained = [&](uint32_t i) {
     const ContactStrain strain = w.constraints[i].strain;
-    return strain == ContactStrain::Loaded || (bodies <= kMostLeaningBodies && strain == ContactStrain::Leaning);
-  });
-  return bodies <= kMostBodies && strained && isMostlyAtRest(w, contacts);
+    return (bodies <= kMostBodies && strain == ContactStrain::Loaded) ||
+           (bodies <= kMostLeaningBodies && strain == ContactStrain::Leaning);
+  };
+  const auto isSmallHere = [&](uint32_t i) { return isSmall(w, w.constraints[i]); };
+  const auto mostlySmall = [&] { return 2 * std::ranges::count_if(contacts, isSmallHere) > std::ssize(contacts); };
+  return bodies <= kMostSmallBodies && (std::ranges::any_of(contacts, isStrained) || mostlySmall()) &&
+         isMostlyAtRest(w, contacts);
 }
 
 bool isAskedFor(World::Impl& w, uint32_t island) {
-  if (w.def.contact_solver == ContactSolver::Newton) return w.contact_islands.bodies(island).size() <= kMostBodies;
+  if (w.def.contact_solver == ContactSolver::Newton) return w.contact_islands.bodies(island).size() <= kMostSmallBodies;
   const auto joints = jointsOf(w, island);
   if (joints.empty()) return isAskedForAlone(w, island);
   return !stage::isJointCrowd(w) && isAskedForBeside(w, island, joints);
@@ -214,7 +232,8 @@ ContactStrain World::Impl::strainOf(const ContactConstraint& c) const {
   const float top = height > 0.0f ? mass_b : mass_a, bottom = height > 0.0f ? mass_a : mass_b;
   const bool leans = std::abs(height) < kLeaning * gravity;
   if (top > kMassRatio * bottom && !leans) return ContactStrain::Loaded;
-  return leans && !c.round_a && !c.round_b ? ContactStrain::Leaning : ContactStrain::None;
+  if (leans && !c.round_a && !c.round_b) return ContactStrain::Leaning;
+  return isSmall(*this, c) ? ContactStrain::Small : ContactStrain::None;
 }
 
 namespace stage {

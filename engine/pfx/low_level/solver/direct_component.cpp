@@ -98,8 +98,8 @@ bool DirectComponent::build(std::span<const JointConstraint> joints, uint64_t ma
                                  body_index_.begin());
   };
   joints_.clear();
-  std::vector<JointEnds> ends;
-  std::vector<uint8_t> moved(body_index_.size(), 0);
+  Vector<JointEnds> ends;
+  Vector<uint8_t> moved(body_index_.size(), 0);
   int most_rows = 0;
   for (const JointConstraint& c : joints) {
     DirectJoint j = {};

@@ -47,8 +47,8 @@ bool JointComponents::update(std::span<const JointConstraint> joints, uint32_t n
   solver_ = solver;
   joints_.assign(joints.begin(), joints.end());
   components_.clear();
-  std::vector<uint32_t> movable;
-  std::vector<Link> links;
+  Vector<uint32_t> movable;
+  Vector<Link> links;
   for (const JointConstraint& c : joints_) {
     links.push_back(linkOf(c));
     if (c.writable_a) movable.push_back(c.body_a);
@@ -68,7 +68,7 @@ bool JointComponents::update(std::span<const JointConstraint> joints, uint32_t n
 void JointComponents::addComponent(std::span<const uint32_t> joints, JointSolver solver) {
   JointComponent& c = components_.emplace_back();
   size_t inner = 0;
-  std::vector<uint32_t> movable;
+  Vector<uint32_t> movable;
   for (uint32_t i : joints) {
     const JointConstraint& j = joints_[i];
     c.joints.push_back(j);

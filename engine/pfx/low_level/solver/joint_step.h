@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <span>
-#include <vector>
 
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/low_level/solver/joint_components.h"
 #include "pfx/low_level/solver/joint_soft.h"
 #include "pfx/low_level/task/task_manager.h"
@@ -36,8 +36,8 @@ class JointStep {
   void end(std::span<const RigidState> states, TaskManager& tasks);
 
  private:
-  std::vector<JointComponent*> components_;
-  std::vector<JointComponent*> direct_;
+  Vector<JointComponent*> components_;
+  Vector<JointComponent*> direct_;
   SoftJoints soft_;
 };
 

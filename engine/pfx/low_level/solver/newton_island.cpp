@@ -13,6 +13,10 @@ constexpr double kStiffnessShare = 0.1;
 constexpr double kStiffening = 8.0;
 constexpr int kMostStiffenings = 7;
 
+// Nothing is known of the load of a new contact; it may have to carry so many bodies. That matters for those of a few
+// millimetres, which would vanish in their neighbours before the load is known.
+constexpr double kExpectedLayers = 10.0;
+
 // No body leaves an island at more than this many times the largest speed before, and this speed (m/s) besides.
 constexpr double kMostGain = 4.0, kMostSpeed = 3.0;
 
@@ -71,6 +75,7 @@ void NewtonIsland::addContact(const ContactConstraint& constraint) {
     for (int side = 0; side < 2; ++side) center[side] += p.arm[side] / m.num_points;
     load += static_cast<double>(m.points[i].normal_impulse) / m.num_points;
   }
+  load = std::max(load, expectedLoad(c) / m.num_points);
   for (int i = 0; i < m.num_points; ++i) {
     NewtonPoint& p = c.points[i];
     const Vec3d friction_arm[2] = {center[0] + params_.friction_spread * (p.arm[0] - center[0]),
@@ -97,6 +102,16 @@ void NewtonIsland::addContact(const ContactConstraint& constraint) {
     p.most_normal = 0.0;
     std::fill(p.curvature, p.curvature + 4, -1.0);
   }
+}
+
+// N s, of kExpectedLayers of the lighter body.
+double NewtonIsland::expectedLoad(const NewtonContact& c) const {
+  double weight = HUGE_VAL;
+  for (int side = 0; side < 2; ++side) {
+    const DirectBody& b = bodies_[c.body[side]];
+    if (c.moves[side]) weight = std::min(weight, b.acceleration.norm() * params_.h / b.inv_mass);
+  }
+  return kExpectedLayers * weight;
 }
 
 // A load far above the weight of its bodies presses no deeper than a share of their size.

@@ -14,8 +14,8 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/low_level/solver/body_elimination.h"
 #include "pfx/low_level/solver/direct_body.h"
 #include "pfx/low_level/solver/newton_contact.h"
@@ -59,6 +59,7 @@ class NewtonIsland {
  private:
   uint32_t localOf(uint32_t body) const;
   void addContact(const ContactConstraint& constraint);
+  double expectedLoad(const NewtonContact& contact) const;
   void addJoint(const JointConstraint& constraint);
   void setStiffness(NewtonPoint& point, const double (&inverse_mass)[2], double load) const;
   void makeStructure();
@@ -85,17 +86,17 @@ class NewtonIsland {
   NewtonParams params_;
   uint32_t iterations_ = 0;
   std::span<const uint32_t> body_index_;  // of the caller; valid during the step
-  std::vector<DirectBody> bodies_;
-  std::vector<TransformDouble> start_;  // poses at the start of the step
-  std::vector<uint32_t> moving_;        // local indices of dynamic bodies; their order is that of the blocks
-  std::vector<uint32_t> block_of_;      // by local index
-  std::vector<NewtonContact> contacts_;
-  std::vector<NewtonJoint> joints_;
-  std::vector<Link> links_;  // of blocks, by contact or joint that couples two
+  Vector<DirectBody> bodies_;
+  Vector<TransformDouble> start_;  // poses at the start of the step
+  Vector<uint32_t> moving_;        // local indices of dynamic bodies; their order is that of the blocks
+  Vector<uint32_t> block_of_;      // by local index
+  Vector<NewtonContact> contacts_;
+  Vector<NewtonJoint> joints_;
+  Vector<Link> links_;  // of blocks, by contact or joint that couples two
   BodyElimination elimination_;
-  std::vector<Mat3d> inertia_;                                           // kg m^2, world axes, by local index
-  std::vector<double> velocity_, free_velocity_, direction_, gradient_;  // six a body, by local index
-  std::vector<double> diagonal_, off_diagonal_, scratch_, x_;
+  Vector<Mat3d> inertia_;                                           // kg m^2, world axes, by local index
+  Vector<double> velocity_, free_velocity_, direction_, gradient_;  // six a body, by local index
+  Vector<double> diagonal_, off_diagonal_, scratch_, x_;
   double tolerance_ = 0.0;  // m/s
   bool factored_ = false;
 };
