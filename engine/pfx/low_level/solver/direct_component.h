@@ -83,6 +83,7 @@ class DirectComponent {
   DirectStructure structure_;
   int block_ = 3;                   // rows of a block: 3, 5 or 6
   bool closed_ = false;             // loops, or held at several places: rows may depend on each other
+  bool redundant_ = false;          // they do
   bool stiff_ = false;              // sub-steps are damped, see stiffnessRatio
   bool started_ = false;            // a sub-step of this step has begun
   bool linearized_ = false;         // at the poses of the bodies, factor included

@@ -329,8 +329,7 @@ RowResidual rowResidual(const DirectJoint& j, int row, std::span<const DirectBod
   const double give = r.softness * r.diagonal * r.impulse;
   if (velocity_only) return {-rowSpeed(j, row, bodies) - give, tolerance};
   const double reached = s.linear ? r.value + s.h * rowSpeed(j, row, bodies) : r.next;
-  const double error = reached - r.goal, slop = s.slop * (r.axis < 3 ? j.length : 1.0);
-  return {-(error - std::clamp(error, -slop, slop)) / s.h - give, tolerance};
+  return {-(reached - r.goal) / s.h - give, tolerance};
 }
 
 // sym(F r^T) - (r . F) 1 at lever r.

@@ -65,7 +65,6 @@ struct DirectSubstep {
   double part;    // share of h that forces act for: 1, or 0.5 at the ends of a leapfrog step
   bool leapfrog;  // velocities belong to the middle of the sub-step
   bool linear;    // positions at the end of the sub-step are taken from the Jacobian
-  double slop;    // share of `length` below which a position error counts as none
 };
 
 // Chooses the rows of a joint, when its kind or locks have changed.

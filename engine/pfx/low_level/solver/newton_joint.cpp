@@ -99,7 +99,7 @@ void begin(NewtonJoint& n, std::span<const DirectBody> bodies, double h, int sub
 
 void linearize(NewtonJoint& n, std::span<const DirectBody> bodies, double h, bool push) {
   DirectJoint& j = n.joint;
-  linearizeRows(j, bodies, {h, 1.0, false, false, 0.0});
+  linearizeRows(j, bodies, {h, 1.0, false, false});
   n.num_rows = 0;
   for (int k = 0; k < j.num_rows; ++k) {
     DirectRow& d = j.row[k];
