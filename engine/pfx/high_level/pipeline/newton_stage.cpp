@@ -4,7 +4,8 @@
 // what the lighter body weighs: low in a tall stack, under something heavy. They let slip what only holds
 // while nothing gives way: stones of an arch, cards that lean. Each contact tells by its impulse, masses and
 // normal whether it is of that kind, so that a world in which nothing is strained pays for a comparison a
-// manifold.
+// manifold. Where bodies were set upon each other nobody knows the loads yet; a structure of which that is true throughout
+// is strained until its first step has told them.
 #include <algorithm>
 #include <cmath>
 
@@ -45,15 +46,33 @@ bool isResting(const World::Impl& w, const ContactConstraint& c) {
              .squaredNorm() < most * most;
 }
 
+float totalImpulse(const ContactManifold& m) {
+  float sum = 0.0f;
+  for (int i = 0; i < m.num_points; ++i) sum += m.points[i].normal_impulse;
+  return sum;
+}
+
+bool leans(const World::Impl& w, const ContactConstraint& c) {
+  return std::abs(c.manifold->normal.dot(w.def.gravity)) < kLeaning * w.def.gravity.norm();
+}
+
+bool isTopHeavy(const World::Impl& w, const ContactConstraint& c) {
+  const float mass_a = w.store.bodies[c.solver_a].mass, mass_b = w.store.bodies[c.solver_b].mass;
+  const bool b_is_above = c.manifold->normal.dot(w.def.gravity) < 0.0f;
+  return !leans(w, c) && (b_is_above ? mass_b > kMassRatio * mass_a : mass_a > kMassRatio * mass_b);
+}
+
 NewtonParams newtonParams(const World::Impl& w) {
   return {.h = static_cast<double>(w.dt) / w.def.substeps,
           .substeps = w.def.substeps,
           .restitution_threshold = stage::restitutionThreshold(w)};
 }
 
-// Whether every body that a constraint could move is moved by it, and none has a surface that moves by itself.
+// Whether every body that a constraint could move is moved by it, and none has a surface that moves by itself
+// or resists turning.
 bool isSymmetric(const World::Impl& w, const ContactConstraint& c) {
-  return w.motionOf(c.solver_a) == nullptr && w.motionOf(c.solver_b) == nullptr &&
+  const auto is_plain = [&](uint32_t body) { return w.motionOf(body) == nullptr && w.beltOf(body) == nullptr; };
+  return is_plain(c.solver_a) && is_plain(c.solver_b) && !resistsTurning(c) &&
          c.writable_a == isDynamic(w.store.states[c.solver_a].motion_type) &&
          c.writable_b == isDynamic(w.store.states[c.solver_b].motion_type);
 }
@@ -63,14 +82,17 @@ bool isAskedFor(const World::Impl& w, uint32_t island) {
   const auto links = w.contact_islands.links(island);
   size_t resting = 0;
   const bool may_lean = w.contact_islands.bodies(island).size() <= kMostLeaningBodies;
-  bool loaded = false, leaning = false;
+  bool loaded = false, leaning = false, set_up = true, some_load = false;
   for (uint32_t i : links) {
     const ContactConstraint& c = w.constraints[i];
     resting += isResting(w, c);
-    loaded = loaded || c.strain == ContactStrain::Loaded;
+    const bool is_fresh = totalImpulse(*c.manifold) == 0.0f;
+    set_up = set_up && is_fresh;
+    some_load = some_load || c.strain == ContactStrain::Loaded;
+    loaded = loaded || (c.strain == ContactStrain::Loaded && (!is_fresh || isTopHeavy(w, c)));
     leaning = leaning || (may_lean && c.strain == ContactStrain::Leaning);
   }
-  return (loaded || leaning) &&
+  return (loaded || leaning || (set_up && some_load)) &&
          static_cast<double>(resting) >= kRestingShare * static_cast<double>(links.size());
 }
 
@@ -125,17 +147,12 @@ void giveBack(World::Impl& w, const NewtonTask& task) {
 }  // namespace
 
 ContactStrain World::Impl::strainOf(const ContactConstraint& c) const {
-  if (!c.writable_a || !c.writable_b) return ContactStrain::None;
-  const float mass_a = store.bodies[c.solver_a].mass, mass_b = store.bodies[c.solver_b].mass;
-  const float height = -c.manifold->normal.dot(def.gravity), gravity = def.gravity.norm();
-  if (gravity == 0.0f) return ContactStrain::None;
-  float impulse = 0.0f;
-  for (int i = 0; i < c.manifold->num_points; ++i) impulse += c.manifold->points[i].normal_impulse;
-  if (impulse > kLoad * std::min(mass_a, mass_b) * fallSpeed(*this)) return ContactStrain::Loaded;
-  const float top = height > 0.0f ? mass_b : mass_a, bottom = height > 0.0f ? mass_a : mass_b;
-  const bool leans = std::abs(height) < kLeaning * gravity;
-  if (top > kMassRatio * bottom && !leans) return ContactStrain::Loaded;
-  return leans && !c.round_a && !c.round_b ? ContactStrain::Leaning : ContactStrain::None;
+  if (!c.writable_a || !c.writable_b || def.gravity.isZero()) return ContactStrain::None;
+  const float lighter = std::min(store.bodies[c.solver_a].mass, store.bodies[c.solver_b].mass);
+  const float impulse = totalImpulse(*c.manifold);
+  if (impulse > kLoad * lighter * fallSpeed(*this) || isTopHeavy(*this, c)) return ContactStrain::Loaded;
+  if (leans(*this, c)) return c.round_a || c.round_b ? ContactStrain::None : ContactStrain::Leaning;
+  return impulse == 0.0f && isResting(*this, c) ? ContactStrain::Loaded : ContactStrain::None;
 }
 
 namespace stage {

@@ -126,6 +126,7 @@ void World::step(float dt) {
     throw std::invalid_argument("world: dt = " + std::to_string(dt) + " s, must be >= 0");
   if (dt == 0.0f) return;
   impl_->dt = dt;
+  impl_->rescaleImpulses(dt / static_cast<float>(impl_->def.substeps));
   impl_->counts_are_current = false;
   runStages(*impl_);
   ++impl_->step_count;
@@ -148,6 +149,13 @@ RigidState& World::state(BodyId id) {
 RigidBody& World::body(BodyId id) {
   state(id);
   return impl_->store.bodies[id.index];
+}
+
+Surface World::surface(uint32_t index) const { return impl_->store.surface(index); }
+
+void World::setSurface(BodyId id, const Surface& surface) {
+  state(id);
+  impl_->store.setSurface(id.index, surface);
 }
 
 void World::moveKeyframe(BodyId id, const Transform& pose, float dt) {
