@@ -124,6 +124,7 @@ void World::step(float dt) {
   if (dt == 0.0f) return;
   const MemoryScope scope(impl_->memory);
   impl_->dt = dt;
+  impl_->rescaleImpulses(dt / static_cast<float>(impl_->def.substeps));
   runStages(*impl_);
   impl_->forgetCounts();
   ++impl_->step_count;
@@ -147,6 +148,13 @@ RigidState& World::state(BodyId id) {
 RigidBody& World::body(BodyId id) {
   state(id);
   return impl_->store.bodies[id.index];
+}
+
+Surface World::surface(uint32_t index) const { return impl_->store.surface(index); }
+
+void World::setSurface(BodyId id, const Surface& surface) {
+  state(id);
+  impl_->store.setSurface(id.index, surface);
 }
 
 void World::moveKeyframe(BodyId id, const Transform& pose, float dt) {
