@@ -108,7 +108,7 @@ void addPoints(Detection& d, const ShapePair& shapes, const pfx::ContactManifold
 // What one worker needs again and again.
 struct Scratch {
   pfx::MeshContactScratch mesh;
-  std::vector<pfx::ContactManifold> found;
+  pfx::Vector<pfx::ContactManifold> found;
 };
 Scratch& scratchOfThread() {
   thread_local Scratch scratch;
