@@ -6,6 +6,7 @@
 namespace sce {
 namespace PhysicsEffects {
 
+// How a body moves, and what its contacts do.
 enum ePfxMotionType {
   kPfxMotionTypeFixed = 0,  // infinite mass, never moves
   kPfxMotionTypeActive,     // moves by the laws of mechanics
@@ -31,6 +32,7 @@ class PfxRigidState {
   // Active at the origin and at rest, filters all ones.
   void reset();
 
+  // Pose (m) and velocities of the centre of mass.
   PfxVector3 getPosition() const { return pfxReadVector3(position_); }
   PfxQuat getOrientation() const { return pfxReadQuat(orientation_); }
   PfxVector3 getLinearVelocity() const { return pfxReadVector3(linear_velocity_); }
@@ -58,6 +60,7 @@ class PfxRigidState {
     movePosition(pose.getTranslation(), timeStep), moveOrientation(PfxQuat(pose.getUpper3x3()), timeStep);
   }
 
+  // Index of the body in the three arrays.
   PfxUInt16 getRigidBodyId() const { return static_cast<PfxUInt16>(body_id_); }
   void setRigidBodyId(PfxUInt16 id) { body_id_ = id; }
   // A pair survives when self of each meets target of the other.
@@ -66,6 +69,7 @@ class PfxRigidState {
   void setContactFilterSelf(PfxUInt32 filter) { filter_self_ = filter; }
   void setContactFilterTarget(PfxUInt32 filter) { filter_target_ = filter; }
 
+  // How it moves, and the same as a bit, with or without sleep.
   ePfxMotionType getMotionType() const { return static_cast<ePfxMotionType>(motion_type_); }
   void setMotionType(ePfxMotionType type) { motion_type_ = static_cast<PfxUInt8>(type); }
   void setMotionType(PfxUInt8 type) { motion_type_ = type; }
@@ -133,6 +137,7 @@ class PfxRigidBody {
   // 1 kg with unit inertia, restitution 0.2, friction 0.6.
   void reset();
 
+  // kg, and 1/kg; no mass at all gives way to no force.
   PfxFloat getMass() const { return mass_; }
   PfxFloat getMassInv() const { return mass_inv_; }
   void setMass(PfxFloat mass) { mass_ = mass, mass_inv_ = mass > 0.0f ? 1.0f / mass : 0.0f; }
@@ -142,6 +147,7 @@ class PfxRigidBody {
   // A tensor that has no inverse gives way to no torque.
   void setInertia(const PfxMatrix3& inertia);
   void setInertiaInv(const PfxMatrix3& inverse) { inertia_inv_ = inverse; }
+  // Of the surface, 0 .. 1: restitutions are averaged, of frictions the geometric mean is taken. Data of the application.
   PfxFloat getRestitution() const { return restitution_; }
   void setRestitution(PfxFloat restitution) { restitution_ = restitution; }
   PfxFloat getFriction() const { return friction_; }
