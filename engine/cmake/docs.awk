@@ -15,8 +15,8 @@ function documented(line) {
 # The comment behind a declaration.
 function trailing(line,   at) {
   at = index(line, "//")
-  if (at == 0 || at < 3 || line ~ /^ *#/ || substr(line, 1, at - 1) ~ /["\/]/ || substr(line, at + 2, 1) == "/") return line
-  if (substr(line, 1, at - 1) !~ /[;,{}A-Za-z0-9_] +$/) return line
+  if (at == 0 || at < 3 || line ~ /^ *# *(include|if|el|end|pragma)/ || substr(line, 1, at - 1) ~ /["\/]/ || substr(line, at + 2, 1) == "/") return line
+  if (substr(line, 1, at - 1) !~ /[;,{}()A-Za-z0-9_] +$/) return line
   return substr(line, 1, at - 1) "///<" escaped(substr(line, at + 2))
 }
 # What opens a scope of declarations, and not a body or a list of values.
@@ -26,7 +26,7 @@ function declares(text) {
 }
 function follow(line,   k, c) {  # keeps the stack of scopes
   sub(/\/\/.*/, "", line); gsub(/"[^"]*"/, "", line); gsub(/'[^']*'/, "", line)
-  if (line ~ /^ *#/) return
+  if (line ~ /^ *#/ || in_macro) { in_macro = line ~ /\\$/; return }
   for (k = 1; k <= length(line); ++k) {
     c = substr(line, k, 1)
     if (c == "{") { scope[++depth] = declares(statement) ? (statement ~ /(^|[ \t])enum([ \t]|$)/ ? "enum" : "type") : "body"; statement = "" }
