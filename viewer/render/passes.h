@@ -43,6 +43,7 @@ class SolidPass {
   void drawTranslucent(std::span<const SolidDraw> draws, const FrameBlock& frame, GLuint shadow_map) const;
 
  private:
+  void drawDepth(std::span<const SolidDraw> draws, const FrameBlock& frame) const;
   void useShadow(GLuint shadow_map) const;
   const Gl* gl_;
   Program depth_, plain_, shiny_, floor_, plain_round_, shiny_round_;

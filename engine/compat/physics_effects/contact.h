@@ -56,6 +56,7 @@ struct PfxContactPoint {
   PfxFloat m_armA[3];                   // m, world, from the centres to the point: filled by the solver
   PfxFloat m_armB[3];
   PfxConstraintRow m_constraintRow[3];  // the normal, from B to A, and two tangents
+  PfxFloat m_pushRhs, m_push[3];        // N s, to take back overlap: filled by the solver
 
   PfxContactPoint() { reset(); }
   void reset();

@@ -38,8 +38,17 @@ class PfxRigidState {
   void setPosition(const PfxVector3& v) { pfxStoreVector3(v, position_); }
   void setPosition(const PfxPoint3& p) { pfxStorePoint3(p, position_); }
   void setOrientation(const PfxQuat& q) { pfxStoreQuat(q, orientation_); }
-  void setLinearVelocity(const PfxVector3& v) { pfxStoreVector3(v, linear_velocity_); }
-  void setAngularVelocity(const PfxVector3& v) { pfxStoreVector3(v, angular_velocity_); }
+  void setLinearVelocity(const PfxVector3& v) { setLinearVelocity(v, PfxVector3(0.0f)); }
+  void setAngularVelocity(const PfxVector3& v) { setAngularVelocity(v, PfxVector3(0.0f)); }
+  // With a part that lasts until the next update of the states only: the solver parts overlapping bodies with it.
+  void setLinearVelocity(const PfxVector3& v, const PfxVector3& passing) {
+    pfxStoreVector3(v, linear_velocity_), pfxStoreVector3(passing, passing_linear_);
+  }
+  void setAngularVelocity(const PfxVector3& v, const PfxVector3& passing) {
+    pfxStoreVector3(v, angular_velocity_), pfxStoreVector3(passing, passing_angular_);
+  }
+  PfxVector3 getPassingLinearVelocity() const { return pfxReadVector3(passing_linear_); }
+  PfxVector3 getPassingAngularVelocity() const { return pfxReadVector3(passing_angular_); }
 
   // The velocity that takes a keyframe body to a pose within `timeStep`; the next update of the states does the rest.
   // Other motion types are not moved.
@@ -59,6 +68,7 @@ class PfxRigidState {
 
   ePfxMotionType getMotionType() const { return static_cast<ePfxMotionType>(motion_type_); }
   void setMotionType(ePfxMotionType type) { motion_type_ = static_cast<PfxUInt8>(type); }
+  void setMotionType(PfxUInt8 type) { motion_type_ = type; }
   PfxUInt8 getMotionTypeMask() const { return static_cast<PfxUInt8>(1 << motion_type_); }
   PfxUInt8 getMotionMask() const {
     return static_cast<PfxUInt8>(1 << motion_type_ | (asleep_ ? SCE_PFX_MOTION_MASK_SLEEPING : 0));
@@ -110,6 +120,8 @@ class PfxRigidState {
   PfxFloat angular_damping_;
   PfxFloat max_linear_velocity_;
   PfxFloat max_angular_velocity_;
+  PfxFloat passing_linear_[3];
+  PfxFloat passing_angular_[3];
   PfxUInt32 user_param_[4];
   void* user_data_;
 };

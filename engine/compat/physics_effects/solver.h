@@ -14,6 +14,8 @@ struct PfxSolverBody {
   PfxFloat m_deltaAngularVelocity[3];
   PfxFloat m_pad;
   PfxFloat m_inertiaInv[9];  // world axes
+  PfxFloat m_pushLinearVelocity[3];   // for the motion of this step alone: takes back overlap
+  PfxFloat m_pushAngularVelocity[3];
   PfxFloat m_orientation[4];
   PfxUInt32 m_motionType;
 };

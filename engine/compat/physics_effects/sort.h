@@ -7,14 +7,14 @@ namespace sce {
 namespace PhysicsEffects {
 
 // Records are looked at as bytes, 16-bit or 32-bit slots. The last 32-bit slot is the key.
-template <int Bytes>
+template <size_t Bytes>
 struct alignas(16) PfxSortDataBytes {
   union {
     PfxUInt8 i8data[Bytes];
     PfxUInt16 i16data[Bytes / 2];
     PfxUInt32 i32data[Bytes / 4];
   };
-  static constexpr int kKeySlot = Bytes / 4 - 1;
+  static constexpr size_t kKeySlot = Bytes / 4 - 1;
 
   void set8(int slot, PfxUInt8 v) { i8data[slot] = v; }
   void set16(int slot, PfxUInt16 v) { i16data[slot] = v; }

@@ -46,6 +46,7 @@ namespace Aos {
 
 class Vector4;
 class Point3;
+class Quat;
 class Matrix3;
 
 class alignas(16) Vector3 {
@@ -107,6 +108,7 @@ class alignas(16) Point3 {
 };
 inline Vector3::Vector3(const Point3& p) : e_{p[0], p[1], p[2], 0} {}
 inline Point3 operator+(Point3 a, const Vector3& b) { return a += b; }
+inline Point3 operator+(const Vector3& a, Point3 b) { return b += a; }
 inline Point3 operator-(Point3 a, const Vector3& b) { return a -= b; }
 inline Vector3 operator-(const Point3& a, const Point3& b) { return Vector3(a) - Vector3(b); }
 
@@ -117,6 +119,7 @@ class alignas(16) Vector4 {
   Vector4(const Vector3& v, float w) : e_{v[0], v[1], v[2], w} {}
   explicit Vector4(const Vector3& v) : Vector4(v, 0.0f) {}
   explicit Vector4(const Point3& p) : e_{p[0], p[1], p[2], 1} {}
+  explicit Vector4(const Quat& q);
   explicit Vector4(float all) : e_{all, all, all, all} {}
   static Vector4 xAxis() { return Vector4(1, 0, 0, 0); }
   static Vector4 yAxis() { return Vector4(0, 1, 0, 0); }
@@ -161,6 +164,7 @@ class alignas(16) Quat {
   Quat(const Vector3& v, float w) : e_{v[0], v[1], v[2], w} {}
   explicit Quat(const Vector4& v) : e_{v[0], v[1], v[2], v[3]} {}
   explicit Quat(const Matrix3& m);
+  explicit Quat(float all) : e_{all, all, all, all} {}
   static Quat identity() { return Quat(); }
   static Quat rotation(float radians, const Vector3& unit_axis);
   static Quat rotation(const Vector3& unit_from, const Vector3& unit_to);
@@ -190,6 +194,8 @@ class alignas(16) Quat {
  private:
   float e_[4];
 };
+
+inline Vector4::Vector4(const Quat& q) : e_{q[0], q[1], q[2], q[3]} {}
 
 inline float lengthSqr(const Vector4& v) { return dot(v, v); }
 inline float length(const Vector4& v) { return std::sqrt(dot(v, v)); }
@@ -222,6 +228,10 @@ inline float sum(const Vector3& a) { return a[0] + a[1] + a[2]; }
 inline Vector3 lerp(float t, const Vector3& a, const Vector3& b) { return a + t * (b - a); }
 inline Point3 lerp(float t, const Point3& a, const Point3& b) { return a + t * (b - a); }
 inline Vector3 sqrtPerElem(const Vector3& a) { return Vector3(std::sqrt(a[0]), std::sqrt(a[1]), std::sqrt(a[2])); }
+inline Vector3 rsqrtPerElem(const Vector3& a) { return recipPerElem(sqrtPerElem(a)); }
+inline Vector3 copySignPerElem(const Vector3& size, const Vector3& sign) {
+  return Vector3(std::copysign(size[0], sign[0]), std::copysign(size[1], sign[1]), std::copysign(size[2], sign[2]));
+}
 inline float distFromOrigin(const Point3& p) { return length(Vector3(p)); }
 inline float distSqrFromOrigin(const Point3& p) { return lengthSqr(Vector3(p)); }
 inline float projection(const Point3& p, const Vector3& unit) { return dot(Vector3(p), unit); }

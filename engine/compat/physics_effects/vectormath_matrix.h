@@ -200,6 +200,14 @@ inline Matrix4 transpose(const Matrix4& m) {
     for (int j = 0; j < 4; ++j) t[i][j] = m[j][i];
   return t;
 }
+// By blocks [A, b; c, d] of 3 and 1 (Schur's complement); of a matrix whose upper 3 x 3 block has an inverse.
+inline Matrix4 inverse(const Matrix4& m) {
+  const Matrix3 a = inverse(m.getUpper3x3());
+  const Vector3 b = a * m.getTranslation(), c = rowMul(m.getRow(3).getXYZ(), a);
+  const float d = 1.0f / (m[3][3] - dot(c, m.getTranslation()));
+  const Matrix3 upper = a + outer(b, c) * d;
+  return Matrix4(Vector4(upper[0], -d * c[0]), Vector4(upper[1], -d * c[1]), Vector4(upper[2], -d * c[2]), Vector4(-d * b, d));
+}
 
 }  // namespace Aos
 }  // namespace Scalar

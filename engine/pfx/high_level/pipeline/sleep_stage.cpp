@@ -21,7 +21,7 @@ void World::Impl::wake(uint32_t body) {
     i = next_sleeper[i];
   } while (i != body);
   active_changed = true;
-  counts_are_current = false;
+  forgetCounts();
   has_woken = true;
 }
 

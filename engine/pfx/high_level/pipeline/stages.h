@@ -42,6 +42,9 @@ void modifyContacts(World::Impl& world);                       // lets the appli
 // Motion of a body under outer forces, in sub-steps of h seconds.
 BodyMotion makeMotion(const World::Impl& world, uint32_t body, float h);
 
+// Whether the world has so many joints that they make do with the cheapest solver.
+bool isJointCrowd(const World::Impl& world);
+
 // Fills in the bodies of a component for a step.
 void beginComponent(World::Impl& world, JointComponent& component, const DirectStepParams& params);
 

@@ -36,7 +36,7 @@ void World::Impl::refreshActive() {
 void World::Impl::hasChanged(uint32_t body) {
   active_changed = true;
   tree_is_current = false;
-  counts_are_current = false;
+  forgetCounts();
   changed_bodies.push_back(body);
 }
 
@@ -68,7 +68,10 @@ void World::Impl::linkIslands() {
 }
 
 // The links of all islands, in the order in which the islands keep them, as indices of pairs.
-void World::Impl::listIslandPairs() {
+void World::Impl::listIslands() {
+  if (std::exchange(islands_are_current, true)) return;
+  const MemoryScope scope(memory);
+  linkIslands();
   island_pairs.clear();
   for (uint32_t k = 0; k < islands.size(); ++k)
     for (uint32_t link : islands.links(k))
@@ -121,8 +124,9 @@ void World::step(float dt) {
   if (dt == 0.0f) return;
   const MemoryScope scope(impl_->memory);
   impl_->dt = dt;
-  impl_->counts_are_current = false;
+  impl_->rescaleImpulses(dt / static_cast<float>(impl_->def.substeps));
   runStages(*impl_);
+  impl_->forgetCounts();
   ++impl_->step_count;
   requireRoom();
 }
@@ -146,6 +150,13 @@ RigidBody& World::body(BodyId id) {
   return impl_->store.bodies[id.index];
 }
 
+Surface World::surface(uint32_t index) const { return impl_->store.surface(index); }
+
+void World::setSurface(BodyId id, const Surface& surface) {
+  state(id);
+  impl_->store.setSurface(id.index, surface);
+}
+
 void World::moveKeyframe(BodyId id, const Transform& pose, float dt) {
   RigidState& s = state(id);
   if (s.motion_type != MotionType::Keyframe)
@@ -167,7 +178,7 @@ JointId World::addJoint(const JointDef& def) {
   impl_->wake(def.body_a.index);
   impl_->wake(def.body_b.index);
   impl_->revivePairs();
-  impl_->counts_are_current = false;
+  impl_->forgetCounts();
   const auto states = impl_->store.states.begin();
   return impl_->joint_store.add(def, makeJoint(states[def.body_a.index], states[def.body_b.index], def.params));
 }
@@ -178,7 +189,7 @@ void World::removeJoint(JointId id) {
   impl_->wake(link.body_a);
   impl_->wake(link.body_b);
   impl_->revivePairs();
-  impl_->counts_are_current = false;
+  impl_->forgetCounts();
   impl_->joint_store.remove(id.index);
 }
 
@@ -273,13 +284,12 @@ std::span<const ContactManifold> World::manifolds(const Pair& pair) const {
 }
 
 uint32_t World::numIslands() const {
-  const MemoryScope scope(impl_->memory);
-  impl_->linkIslands();
-  impl_->listIslandPairs();
+  impl_->listIslands();
   return impl_->islands.size();
 }
 
 IslandView World::island(uint32_t index) const {
+  impl_->listIslands();
   const auto bodies = impl_->islands.bodies(index);
   const RigidState& first = impl_->store.states[bodies.front()];
   const auto links = impl_->islands.links(index);

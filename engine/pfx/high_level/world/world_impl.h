@@ -37,6 +37,8 @@ struct NewtonTask {
   Vector<uint32_t> bodies;  // indices of states, ascending, movable or not
   Vector<BodyMotion> motions;
   Vector<ContactConstraint> constraints;
+  Vector<JointConstraint> joints;
+  Vector<JointComponent*> components;  // of the joints
   bool is_solved = false;
 };
 
@@ -72,6 +74,7 @@ struct World::Impl {
   Deque<ConvexMesh> convex_meshes;  // kept for shapes that point at them
   Deque<LargeMesh> large_meshes;
   float dt = 0.0f;  // s, of the step under way
+  float substep = 0.0f;  // s, in which the remembered impulses of contacts acted; 0: there are none
   uint64_t step_count = 0;
 
   Vector<uint32_t> active;  // awake dynamic bodies, ascending
@@ -157,18 +160,22 @@ struct World::Impl {
   Vector<StageTime> times;
   uint64_t stages_run = 0;  // a bit for each of the pipeline, since the world was made
   WorldCounts counts;
-  bool counts_are_current = false;
+  bool counts_are_current = false, islands_are_current = false;  // of what is told about the world
 
   bool solves(const Pair& pair) const;
   ContactStrain strainOf(const ContactConstraint& constraint) const;  // solver_a, solver_b are indices of states
   const MeshMotion* motionOf(uint32_t body) const;  // of the moving mesh that it wears, or null
   Vec3 surfaceVelocity(uint32_t body, const ContactManifold& manifold, const MeshMotion& motion) const;  // m/s, world
+  // The belt that runs over a body, or null.
+  const Surface* beltOf(uint32_t body) const;
+  void rescaleImpulses(float next_substep);  // so that they stand for the same forces
   void refreshActive();
   void linkIslands();
   void hasChanged(uint32_t body);      // from outside: it stands elsewhere, is new, or is gone
   QueryScene queryScene();             // for queries about the bodies as they are now
   void needSolverBody(uint32_t body);  // the solver will work on it
-  void listIslandPairs();
+  void listIslands();                  // with their pairs, for those who look at them
+  void forgetCounts() { counts_are_current = islands_are_current = false; }
   void forgetPairs(uint32_t body);     // with their contacts; those that last are found anew
   void wake(uint32_t body);            // and its whole island
   void wakeNeighbours(uint32_t body);  // everything that it touches

@@ -50,14 +50,15 @@ SolverSettings World::solver() const {
 
 // The bodies of a solver's task include fixed ones, which are in no island.
 IslandSolvers World::islandSolvers(uint32_t index) const {
+  impl_->listIslands();
   const auto bodies = impl_->islands.bodies(index);
   IslandSolvers found;
   for (uint32_t i = 0; i < impl_->num_newton_islands; ++i)
     found.newton = found.newton || haveOneInCommon(bodies, impl_->newton_islands[i].bodies);
   for (const JointComponent& c : impl_->joint_components.components()) {
     if (!haveOneInCommon(bodies, c.bodies)) continue;
-    found.direct_joints = found.direct_joints || c.is_direct;
-    found.soft_joints = found.soft_joints || !c.is_direct;
+    found.direct_joints = found.direct_joints || !c.is_soft;
+    found.soft_joints = found.soft_joints || c.is_soft;
   }
   return found;
 }

@@ -59,7 +59,6 @@ class DirectComponent {
 
  private:
   void linearize(const DirectSubstep& s);
-  void addStiffness(const DirectJoint& j);
   void factor(double regularization);
   void solve();
   double fillResiduals(const DirectSubstep& s, bool velocity_only);
@@ -84,6 +83,7 @@ class DirectComponent {
   DirectStructure structure_;
   int block_ = 3;                   // rows of a block: 3, 5 or 6
   bool closed_ = false;             // loops, or held at several places: rows may depend on each other
+  bool redundant_ = false;          // they do
   bool stiff_ = false;              // sub-steps are damped, see stiffnessRatio
   bool started_ = false;            // a sub-step of this step has begun
   bool linearized_ = false;         // at the poses of the bodies, factor included

@@ -57,7 +57,11 @@ bool JointComponents::update(std::span<const JointConstraint> joints, uint32_t n
   std::sort(movable.begin(), movable.end());
   movable.erase(std::unique(movable.begin(), movable.end()), movable.end());
   islands_.build(num_bodies, movable, links);
-  for (uint32_t k = 0; k < islands_.size(); ++k) addComponent(islands_.links(k), solver);
+  component_of_.resize(joints_.size());
+  for (uint32_t k = 0; k < islands_.size(); ++k) {
+    for (uint32_t joint : islands_.links(k)) component_of_[joint] = k;
+    addComponent(islands_.links(k), solver);
+  }
   return true;
 }
 

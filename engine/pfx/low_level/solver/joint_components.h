@@ -30,6 +30,8 @@ class JointComponents {
   // Brings the components up to date. Returns whether they changed. num_bodies: of all states.
   bool update(std::span<const JointConstraint> joints, uint32_t num_bodies, JointSolver solver);
   Deque<JointComponent>& components() { return components_; }
+  // joint: index into those of the last update.
+  JointComponent& componentOf(uint32_t joint) { return components_[component_of_[joint]]; }
 
  private:
   void addComponent(std::span<const uint32_t> joints, JointSolver solver);
@@ -38,6 +40,7 @@ class JointComponents {
   Vector<JointConstraint> joints_;
   Vector<uint32_t> rows_;  // which axes each joint constrains, and how
   Islands islands_;
+  Vector<uint32_t> component_of_;  // by joint
   Deque<JointComponent> components_;
 };
 

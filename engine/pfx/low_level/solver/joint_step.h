@@ -15,6 +15,7 @@ class JointStep {
  public:
   void clear();
   void add(JointComponent& component);
+  void remove(const JointComponent& component);
   bool empty() const { return components_.empty(); }
   bool hasSoftGears() const {
     return std::ranges::any_of(components_, [](const JointComponent* c) { return c->is_soft && c->has_gears; });
