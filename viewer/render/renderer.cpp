@@ -20,7 +20,7 @@ QualitySettings settingsOf(Quality quality) {
     case Quality::Ci:
       return {2, 1024, false};
     case Quality::Window:
-      return {1, 1024, false};
+      return {1, 2048, false};
     case Quality::Hero:
       return {3, 4096, true};
   }
