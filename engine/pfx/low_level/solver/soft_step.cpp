@@ -205,9 +205,11 @@ void SoftStep::orderImpacts(std::span<const BodyMotion> motions) {
   }
 }
 
-// Whether any two bodies may come to meet faster than the threshold.
+// Whether any two bodies may come to meet faster than the threshold, and bounce.
 bool SoftStep::mayBounce(std::span<const SolverBody> bodies, std::span<const BodyMotion> motions,
                          const SoftStepParams& params) const {
+  const auto batches = std::span(rows_).first(lanes_.size() / kRowLanes);
+  if (std::ranges::none_of(batches, [](const ContactRows& r) { return r.has_restitution != 0; })) return false;
   const float dt = params.h * static_cast<float>(params.substeps);
   for (size_t i = 0; i < motions.size(); ++i) {
     const SolverBody& b = bodies[i];
@@ -255,8 +257,11 @@ void SoftStep::push(const ContactKernels& kernels, std::span<SolverBody> bodies,
 void SoftStep::solve(std::span<SolverBody> bodies, std::span<BodyMotion> motions,
                      const SoftStepParams& params, JointStep& joints, TaskManager& tasks) {
   const ContactKernels& kernels = contactKernels(params.simd);
-  orderImpacts(motions);
   const bool may_bounce = mayBounce(bodies.first(motions.size()), motions, params);
+  if (may_bounce)
+    orderImpacts(motions);
+  else
+    for (size_t b = 0; b < lanes_.size() / kRowLanes; ++b) rows_[b].has_restitution = 0;
   for (int i = 0; i < params.substeps; ++i) {
     if (may_bounce) bounce(kernels, bodies, tasks);
     forBodies(bodies, motions, tasks, [&](auto b, auto m) { integrateVelocities(b, m, params.h); });
