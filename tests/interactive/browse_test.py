@@ -197,6 +197,7 @@ class BrowserTest(unittest.TestCase):
         self.wait(lambda: self.selection() and self.selection()[0] != first)
 
     def quit_and_read_settings(self):
+        self.still_picture()  # clicks come one a frame, keys all at once: those before have been seen
         self.key("ctrl+q")
         self.assertEqual(self.browser.wait(PATIENCE), 0)
         return json.loads((self.folder / "vitrine" / "browse.json").read_text())
