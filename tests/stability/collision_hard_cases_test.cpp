@@ -175,6 +175,8 @@ TEST_P(HardCase, AKilometreSlabRestsOnFourSupportsAndABeadOnIt) {
     low = std::min(low,
                    world.states()[bead.index].position.y() - world.states()[slab.index].position.y() - 5.01f);
   }
+  std::printf("  HARD-10 slab sunk by %.2e m (limit 0.01), bead low by %.1e m\n", static_cast<double>(sunk),
+              static_cast<double>(-low));
   EXPECT_LT(sunk, 0.01f);
   EXPECT_GT(low, -0.005f);
   EXPECT_LT(world.states()[bead.index].linear_velocity.norm(), 1e-3f);
@@ -222,6 +224,7 @@ TEST_P(HardCase, NoBallAtAThousandMetresPerSecondPassesASliveredMesh) {
   for (int i = 0; i < GetParam().steps(0.5f); ++i) world.step(GetParam().dt());
   int passed = 0;
   for (const BodyId& id : balls) passed += world.states()[id.index].position.y() < -0.05f;
+  std::printf("  HARD-17 passed: %d of 1000\n", passed);
   EXPECT_EQ(passed, 0);
 }
 
@@ -301,6 +304,8 @@ TEST_P(HardCase, ABoxCrushedByAPistonRecovers) {
     ejected = std::max(ejected, fastest(world));
   }
   const RigidState& s = world.states()[box.index];
+  std::printf("  HARD-18 fastest %.2f of the piston (limit 5), box off its rest by %.1e m\n",
+              static_cast<double>(ejected / kSpeed), static_cast<double>(std::abs(s.position.y() - 0.5f)));
   EXPECT_LT(ejected, 5.0f * kSpeed);
   EXPECT_NEAR(s.position.y(), 0.5f, 0.01f);
   EXPECT_LT(s.linear_velocity.norm(), 0.01f);
