@@ -7,6 +7,7 @@
 #include <string>
 
 #include "samples/accuracy/case.h"
+#include "samples/accuracy/error_plot.h"
 #include "samples/registry.h"
 
 namespace samples {
@@ -19,7 +20,7 @@ constexpr Color kGhost = 0x5a3a86c8u, kTruthTrail = 0xff2a6fb0u, kSimulatedTrail
 
 class AccuracyScene final : public Scene {
  public:
-  explicit AccuracyScene(const Case& c) : case_(c), run_(c.make()) {}
+  AccuracyScene(const Case& c, const CameraPose& view) : case_(c), run_(c.make()), plot_(view, c.seconds) {}
 
   void build(World& world) override { run_->build(world); }
 
@@ -28,6 +29,7 @@ class AccuracyScene final : public Scene {
     const std::vector<BodyMotion> bodies = bodyMotions(world);
     error_ = run_->error(bodies);
     if (std::abs(error_) > std::abs(largest_)) largest_ = error_;
+    plot_.add(error_);
     const std::vector<accuracy::Truth> truth = run_->truth();
     if (truth.empty()) return;
     const accuracy::Truth& last = truth.back();
@@ -45,6 +47,7 @@ class AccuracyScene final : public Scene {
     drawTrail(canvas, ought_, {.color = kTruthTrail, .width = 4.0f});
     drawTrail(canvas, is_, {.color = kSimulatedTrail, .width = 1.5f});
     drawArms(world, canvas);
+    plot_.draw(case_.metric, case_.unit, case_.floor, canvas);
     const std::vector<accuracy::Truth> truth = run_->truth();
     if (truth.empty()) return;
     // Above the last body, or the middle one of many, where nothing hides it.
@@ -104,6 +107,7 @@ class AccuracyScene final : public Scene {
   const Case& case_;
   std::unique_ptr<accuracy::Run> run_;
   double error_ = 0.0, largest_ = 0.0;
+  accuracy::ErrorPlot plot_;
   std::deque<Vec3> ought_, is_;  // the last three seconds
 };
 
@@ -129,7 +133,7 @@ const std::vector<View>& views() {
 
 template <size_t Index>
 std::unique_ptr<Scene> make() {
-  return std::make_unique<AccuracyScene>(*accuracy::findCase(views()[Index].name));
+  return std::make_unique<AccuracyScene>(*accuracy::findCase(views()[Index].name), views()[Index].camera);
 }
 
 template <size_t... Index>

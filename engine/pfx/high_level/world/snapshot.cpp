@@ -15,7 +15,7 @@ namespace {
 
 using namespace snapshot_format;
 
-constexpr uint32_t kVersion = 3;
+constexpr uint32_t kVersion = 4;
 constexpr std::array<uint8_t, 8> kMagic = {'P', 'F', 'X', 'S', 'N', 'A', 'P', 0};
 constexpr size_t kHeaderBytes = 16, kSectionBytes = 20;
 
@@ -34,8 +34,8 @@ struct RowMemory {
 
 struct Content {
   World::Impl& world;
-  std::vector<Leaf> leaves;
-  std::vector<RowMemory> rows;  // in the order of components, joints and rows
+  Vector<Leaf> leaves;
+  Vector<RowMemory> rows;  // in the order of components, joints and rows
 };
 
 template <class Fn>
@@ -53,9 +53,10 @@ void ioWorld(A& a, Content& c) {
   io(a, d.substeps);
   ioEnum(a, d.joint_solver, JointSolver::Soft);
   ioEnum(a, d.contact_solver, ContactSolver::Newton);
+  ioEnum(a, d.friction_mixing, Mixing::Product), ioEnum(a, d.restitution_mixing, Mixing::Product);
   io(a, d.report_events), io(a, d.hit_speed);
   io(a, d.sleeping), io(a, d.sleep_velocity), io(a, d.sleep_steps), io(a, d.center), io(a, d.extent);
-  io(a, c.world.dt), io(a, c.world.step_count);
+  io(a, c.world.dt), io(a, c.world.substep), io(a, c.world.step_count);
   if constexpr (A::kReads) a.require(d.substeps >= 1, "substeps are below 1");
 }
 
@@ -79,10 +80,11 @@ template <class A>
 void ioBodies(A& a, Content& c) {
   BodyStore& s = c.world.store;
   io(a, s.states), io(a, s.bodies), io(a, s.inertias), io(a, s.size), io(a, s.radius), io(a, s.names);
+  io(a, s.surfaces);
   io(a, s.generations), io(a, s.free_slots);
   ioList(a, s.collidables, [](A& archive, Collidable& k) { io(archive, k.center), io(archive, k.half_extent); });
   KeptMeshes meshes{c.world.convex_meshes, c.world.large_meshes};
-  ioList(a, s.shapes, [&](A& archive, std::vector<Shape>& shapes) {
+  ioList(a, s.shapes, [&](A& archive, Vector<Shape>& shapes) {
     ioList(archive, shapes, [&](A& inner, Shape& shape) { ioShape(inner, shape, meshes); });
   });
   io(a, c.world.keyframes), io(a, c.world.changed_bodies), io(a, c.world.reach);
@@ -94,7 +96,7 @@ void ioJoints(A& a, Content& c) {
   JointStore& s = c.world.joint_store;
   io(a, s.joints), io(a, s.links), io(a, s.names), io(a, s.break_force), io(a, s.break_torque);
   io(a, s.generations), io(a, s.free_slots), io(a, c.world.broken_joints);
-  std::vector<uint64_t> apart(c.world.apart.keys().begin(), c.world.apart.keys().end());
+  Vector<uint64_t> apart(c.world.apart.keys().begin(), c.world.apart.keys().end());
   io(a, apart);
   if constexpr (A::kReads) c.world.apart.assign(std::move(apart));
 }
@@ -228,7 +230,7 @@ bool areBelow(std::span<const uint32_t> indices, size_t count) {
 
 // Sleeping bodies form rings: each is the next one of exactly one other.
 bool areRings(const World::Impl& w) {
-  std::vector<uint8_t> reached(w.store.states.size());
+  Vector<uint8_t> reached(w.store.states.size());
   for (uint32_t i = 0; i < w.store.states.size(); ++i) {
     if (!w.store.states[i].asleep) continue;
     if (i >= w.next_sleeper.size()) return false;
@@ -281,8 +283,8 @@ void checkContacts(const Reader& r, const World::Impl& w, std::span<const Leaf> 
 
 // What of a snapshot belongs into stages that a restored world makes anew.
 struct Memory {
-  std::vector<Leaf> leaves;
-  std::vector<RowMemory> rows;
+  Vector<Leaf> leaves;
+  Vector<RowMemory> rows;
 };
 
 // A world without threads, for reading into.
@@ -304,8 +306,8 @@ std::unique_ptr<World::Impl> readAll(std::span<const std::byte> in, Memory& memo
 
 // Meshes keep their addresses, since others may hold them. Shapes of `from` are led to those of `to`.
 template <class Mesh>
-void moveMeshes(std::deque<Mesh>& from, std::deque<Mesh>& to, std::deque<std::vector<Shape>>& shapes) {
-  std::vector<std::pair<const Mesh*, const Mesh*>> moved;
+void moveMeshes(Deque<Mesh>& from, Deque<Mesh>& to, Deque<Vector<Shape>>& shapes) {
+  Vector<std::pair<const Mesh*, const Mesh*>> moved;
   for (size_t i = 0; i < from.size(); ++i) {
     if (i == to.size()) to.emplace_back();
     to[i] = std::move(from[i]);
@@ -319,7 +321,7 @@ void moveMeshes(std::deque<Mesh>& from, std::deque<Mesh>& to, std::deque<std::ve
 }
 
 void restTree(World::Impl& w, std::span<const Leaf> leaves) {
-  std::vector<BroadphaseProxy> proxies;
+  Vector<BroadphaseProxy> proxies;
   for (const Leaf& leaf : leaves) {
     const RigidState& s = w.store.states[leaf.body];
     proxies.push_back({.bounds = leaf.bounds,
@@ -356,12 +358,13 @@ void takeOver(World::Impl& w, World::Impl& from, const Memory& memory) {
   from.def.simd = w.def.simd;
   w.def = from.def;
   w.dt = from.dt;
+  w.substep = from.substep;
   w.step_count = from.step_count;
   moveMeshes(from.convex_meshes, w.convex_meshes, from.store.shapes);
   moveMeshes(from.large_meshes, w.large_meshes, from.store.shapes);
   w.store = std::move(from.store);
   for (uint32_t i = 0; i < w.store.states.size(); ++i) {
-    const std::vector<Shape>& shapes = w.store.shapes[i];
+    const Vector<Shape>& shapes = w.store.shapes[i];
     if (shapes.empty() || !w.store.exists(i)) continue;
     w.store.attachShapes(i, w.store.collidables[i]);
   }
@@ -394,7 +397,7 @@ void takeOver(World::Impl& w, World::Impl& from, const Memory& memory) {
   w.island_link_pairs.clear();
   w.island_pairs.clear();
   w.tree_is_current = false;
-  w.counts_are_current = false;
+  w.forgetCounts();
   w.modified.clear();
   w.times.clear();
   rememberRows(w, memory.rows);
@@ -428,7 +431,7 @@ void requireKept(const World::Impl& w) {
       const auto* convex = std::get_if<const ConvexMesh*>(&s.geometry);
       const auto* large = std::get_if<const LargeMesh*>(&s.geometry);
       if ((convex && !is_kept(*convex, w.convex_meshes)) || (large && !is_kept(*large, w.large_meshes)))
-        failWhole("body \"" + w.store.names[i] + "\" has a mesh that the world does not keep");
+        failWhole("body \"" + std::string(w.store.names[i]) + "\" has a mesh that the world does not keep");
     }
   }
 }
@@ -462,6 +465,7 @@ size_t World::snapshot(std::span<std::byte> out) const {
 }
 
 void World::restore(std::span<const std::byte> in) {
+  const MemoryScope scope(impl_->memory);
   Memory memory;
   const std::unique_ptr<Impl> read = readAll(in, memory);
   takeOver(*impl_, *read, memory);

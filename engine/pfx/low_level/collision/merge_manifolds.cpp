@@ -12,7 +12,7 @@ constexpr float kSameNormal = 0.99999f;
 
 // Points of all manifolds from `first` on with its normal; a candidate is named by manifold and point.
 void gather(const RelativePose& b_in_a, std::span<const ContactManifold> manifolds, size_t first,
-            std::vector<LocalContact>& candidates) {
+            Vector<LocalContact>& candidates) {
   candidates.clear();
   for (size_t k = first; k < manifolds.size(); ++k) {
     const ContactManifold& m = manifolds[k];
@@ -49,8 +49,8 @@ void goAround(const Vec3& normal_in_b, ContactManifold& m) {
 
 }  // namespace
 
-void mergeManifolds(const Transform& b_in_a, std::vector<LocalContact>& candidates,
-                    std::vector<ContactManifold>& manifolds) {
+void mergeManifolds(const Transform& b_in_a, Vector<LocalContact>& candidates,
+                    Vector<ContactManifold>& manifolds) {
   const RelativePose to_a(b_in_a);
   for (size_t first = 0; first < manifolds.size(); ++first) {
     gather(to_a, manifolds, first, candidates);
