@@ -24,7 +24,7 @@ ErrorPlot::ErrorPlot(const CameraPose& camera, double seconds)
   const SinCos yaw = sincos(camera.yaw_deg * kDegree), pitch = sincos(camera.pitch_deg * kDegree);
   const Vec3 right(yaw.cos, 0.0f, -yaw.sin), up(-yaw.sin * pitch.sin, pitch.cos, -yaw.cos * pitch.sin);
   // Shares of the distance: the view is about 1.4 wide and 0.8 high.
-  middle_left_ = camera.target + camera.distance * (0.2f * right + 0.25f * up);
+  middle_left_ = camera.target + camera.distance * (0.18f * right + 0.22f * up);
   along_ = 0.4f * camera.distance * right;
   up_ = 0.08f * camera.distance * up;
 }
@@ -37,7 +37,7 @@ void ErrorPlot::add(double error) {
   if (errors_.size() < width_) errors_.push_back(error);
 }
 
-void ErrorPlot::draw(std::string_view metric, std::string_view unit, double least, Canvas& canvas) const {
+void ErrorPlot::draw(std::string_view unit, double least, Canvas& canvas) const {
   double most = least;
   for (const double e : errors_) most = std::max(most, std::abs(e));
   const std::array<Vec3, 4> corners = {at(0, -1), at(1, -1), at(1, 1), at(0, 1)};
@@ -47,9 +47,9 @@ void ErrorPlot::draw(std::string_view metric, std::string_view unit, double leas
   const auto place = [&](size_t i) { return at(static_cast<double>(i) / static_cast<double>(width_), errors_[i] / most); };
   for (size_t i = stride; i < count; i += stride) canvas.line(place(i - stride), place(i), kCurve);
   std::array<char, 96> text;
-  std::snprintf(text.data(), text.size(), "%.*s: +-%.1e %.*s, %.3g s", static_cast<int>(metric.size()), metric.data(), most,
+  std::snprintf(text.data(), text.size(), "error <= %.1e%s%.*s, %.3g s", most, unit.empty() ? "" : " ",
                 static_cast<int>(unit.size()), unit.data(), seconds_);
-  canvas.label(at(0.5, 1.3), text.data());
+  canvas.label(at(0.0, 1.3), text.data());
 }
 
 }  // namespace samples::accuracy

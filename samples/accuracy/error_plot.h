@@ -16,7 +16,7 @@ class ErrorPlot {
 
   void add(double error);  // of each step of kTimeStep; those beyond its width are left out
   // The height stands for the largest error so far, of either sign, and for `least` while all are smaller.
-  void draw(std::string_view metric, std::string_view unit, double least, Canvas& canvas) const;
+  void draw(std::string_view unit, double least, Canvas& canvas) const;
 
  private:
   pfx::Vec3 at(double time, double height) const;  // shares of width and half height: 0 .. 1, -1 .. 1

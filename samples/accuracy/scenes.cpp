@@ -47,7 +47,7 @@ class AccuracyScene final : public Scene {
     drawTrail(canvas, ought_, {.color = kTruthTrail, .width = 4.0f});
     drawTrail(canvas, is_, {.color = kSimulatedTrail, .width = 1.5f});
     drawArms(world, canvas);
-    plot_.draw(case_.metric, case_.unit, case_.floor, canvas);
+    plot_.draw(case_.unit, case_.floor, canvas);
     const std::vector<accuracy::Truth> truth = run_->truth();
     if (truth.empty()) return;
     // Above the last body, or the middle one of many, where nothing hides it.
@@ -120,9 +120,9 @@ struct View {
 const std::vector<View>& views() {
   static const std::vector<View> table = {
       {"pendulum", {{0, -0.1f, 0}, 2.9f, 22.0f, 8.0f}, {0, 50, 300}},
-      {"free_top", {{0, 0, 0}, 6.5f, 30.0f, 22.0f}, {0, 60, 300}},
+      {"free_top", {{0, 0, 0}, 7.6f, 30.0f, 22.0f}, {0, 60, 300}},
       {"heavy_top", {{0, 0.2f, 0.1f}, 2.1f, 40.0f, 14.0f}, {0, 60, 200}},
-      {"heavy_chain", {{0.7f, -0.95f, 0}, 4.6f, 16.0f, 8.0f}, {0, 30, 60}},
+      {"heavy_chain", {{0.7f, -0.95f, 0}, 5.3f, 16.0f, 8.0f}, {0, 30, 60}},
       {"catenary", {{4.0f, -1.3f, 0}, 8.0f, 14.0f, 6.0f}, {0, 60, 300}},
       {"puck", {{0.5f, 0.0f, 0}, 1.5f, 20.0f, 34.0f}, {0, 30, 90}},
       {"masse_shot", {{0.7f, 0.0f, 0.75f}, 3.0f, 35.0f, 35.0f}, {0, 30, 100}},
