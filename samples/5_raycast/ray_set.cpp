@@ -34,7 +34,7 @@ double distanceFromSurface(const World& world, const RayOutput& hit) {
   const Shape probe{Sphere{kProbe}, {}}, &shape = world.collidables()[hit.body].shapes()[hit.shape];
   const Transform at{.position = hit.point}, body = world.states()[hit.body].pose();
   const CollideInput input{shape, body, probe, at, kReach};
-  std::vector<ContactManifold> found(1);
+  Vector<ContactManifold> found(1);
   if (shape.type() == ShapeType::LargeMesh) {
     found.clear();
     MeshContactScratch scratch;

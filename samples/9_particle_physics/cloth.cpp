@@ -1,4 +1,7 @@
 // Cloth: a curtain that a ball swings into, and a sheet that falls over bodies.
+#include <array>
+#include <cmath>
+
 #include "pfx/base_level/math/trig.h"
 #include "pfx/high_level/particles/particle_builder.h"
 #include "samples/9_particle_physics/particle_scene.h"
@@ -14,6 +17,8 @@ constexpr int kSide = 32;  // particles along each edge
 // Hangs from a rail in nine rings, with folds; the ball hangs on a cord and swings through it to and fro.
 class Curtain final : public ParticleScene {
  public:
+  Curtain() { iterations_ = 4.0f; }
+
   void build(World& world) override {
     addGround(world);
     const Vec3 ball_at(0.4f, 2.6f, 2.9f), hook_at(0.4f, 6.0f, 0.3f), ends(1.75f, 3.6f, 0.0f);
@@ -48,6 +53,7 @@ class Curtain final : public ParticleScene {
                    .mass = 1.2f,
                    .shear_compliance = 5e-3f,
                    .bending_stiffness = 2e-5f});
+    measureLengths(def);
     fold(def);
     for (int ring = 0; ring <= 8; ++ring) {
       const auto i = static_cast<uint32_t>(ring * (kSide - 1) / 8);
@@ -62,18 +68,30 @@ class Curtain final : public ParticleScene {
   }
 
  private:
-  // A tenth narrower, in waves that take up what is left over.
-  static void fold(ParticleDef& def) {
+  // As long as they are before the sheet is folded.
+  static void measureLengths(ParticleDef& def) {
     for (ParticleStrand& s : def.strands) {
       s.lengths.clear();
       for (size_t k = 0; k + 1 < s.particles.size(); ++k)
         s.lengths.push_back((def.positions[s.particles[k]] - def.positions[s.particles[k + 1]]).norm());
     }
     for (DistanceConstraint& c : def.distances) c.length = (def.positions[c.a] - def.positions[c.b]).norm();
-    for (Vec3& p : def.positions) {
-      const float phase = 8.0f * kPi * p.x() / 3.5f;
-      p.x() *= 0.92f;
-      p.z() += 0.055f * cos(phase);
+  }
+
+  // Waves that make it a tenth narrower and stretch no thread: where a link goes back or forth, it goes less far along.
+  static void fold(ParticleDef& def) {
+    constexpr float kDepth = 0.08f;  // m
+    const auto out = [](int column) { return kDepth * cos(8.0f * kPi * static_cast<float>(column) / (kSide - 1)); };
+    std::array<float, kSide> x{};
+    for (int k = 1; k < kSide; ++k) {
+      const float link = def.positions[static_cast<size_t>(k)].x() - def.positions[static_cast<size_t>(k - 1)].x();
+      const float forth = out(k) - out(k - 1);
+      x[static_cast<size_t>(k)] = x[static_cast<size_t>(k - 1)] + std::sqrt(link * link - forth * forth);
+    }
+    for (size_t i = 0; i < def.positions.size(); ++i) {
+      Vec3& p = def.positions[i];
+      p.x() = x[i % kSide] - 0.5f * x.back();
+      p.z() += out(static_cast<int>(i % kSide));
     }
   }
 };
@@ -81,7 +99,7 @@ class Curtain final : public ParticleScene {
 // Falls over a ball, a box and a capsule that stand on the ground and may be pushed.
 class Drape final : public ParticleScene {
  public:
-  Drape() { damping_ = 0.8f; }
+  Drape() { damping_ = 0.8f, iterations_ = 4.0f; }
 
   void build(World& world) override {
     addGround(world);

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "samples/accuracy/case.h"
+#include "samples/accuracy/error_plot.h"
 #include "samples/registry.h"
 
 namespace samples {
@@ -19,7 +20,7 @@ constexpr Color kGhost = 0x5a3a86c8u, kTruthTrail = 0xff2a6fb0u, kSimulatedTrail
 
 class AccuracyScene final : public Scene {
  public:
-  explicit AccuracyScene(const Case& c) : case_(c), run_(c.make()) {}
+  AccuracyScene(const Case& c, const CameraPose& view) : case_(c), run_(c.make()), plot_(view, c.seconds) {}
 
   void build(World& world) override { run_->build(world); }
 
@@ -28,6 +29,7 @@ class AccuracyScene final : public Scene {
     const std::vector<BodyMotion> bodies = bodyMotions(world);
     error_ = run_->error(bodies);
     if (std::abs(error_) > std::abs(largest_)) largest_ = error_;
+    plot_.add(error_);
     const std::vector<accuracy::Truth> truth = run_->truth();
     if (truth.empty()) return;
     const accuracy::Truth& last = truth.back();
@@ -45,6 +47,7 @@ class AccuracyScene final : public Scene {
     drawTrail(canvas, ought_, {.color = kTruthTrail, .width = 4.0f});
     drawTrail(canvas, is_, {.color = kSimulatedTrail, .width = 1.5f});
     drawArms(world, canvas);
+    plot_.draw(case_.unit, case_.floor, canvas);
     const std::vector<accuracy::Truth> truth = run_->truth();
     if (truth.empty()) return;
     // Above the last body, or the middle one of many, where nothing hides it.
@@ -104,6 +107,7 @@ class AccuracyScene final : public Scene {
   const Case& case_;
   std::unique_ptr<accuracy::Run> run_;
   double error_ = 0.0, largest_ = 0.0;
+  accuracy::ErrorPlot plot_;
   std::deque<Vec3> ought_, is_;  // the last three seconds
 };
 
@@ -116,9 +120,9 @@ struct View {
 const std::vector<View>& views() {
   static const std::vector<View> table = {
       {"pendulum", {{0, -0.1f, 0}, 2.9f, 22.0f, 8.0f}, {0, 50, 300}},
-      {"free_top", {{0, 0, 0}, 6.5f, 30.0f, 22.0f}, {0, 60, 300}},
+      {"free_top", {{0, 0, 0}, 7.6f, 30.0f, 22.0f}, {0, 60, 300}},
       {"heavy_top", {{0, 0.2f, 0.1f}, 2.1f, 40.0f, 14.0f}, {0, 60, 200}},
-      {"heavy_chain", {{0.7f, -0.95f, 0}, 4.6f, 16.0f, 8.0f}, {0, 30, 60}},
+      {"heavy_chain", {{0.7f, -0.95f, 0}, 5.3f, 16.0f, 8.0f}, {0, 30, 60}},
       {"catenary", {{4.0f, -1.3f, 0}, 8.0f, 14.0f, 6.0f}, {0, 60, 300}},
       {"puck", {{0.5f, 0.0f, 0}, 1.5f, 20.0f, 34.0f}, {0, 30, 90}},
       {"masse_shot", {{0.7f, 0.0f, 0.75f}, 3.0f, 35.0f, 35.0f}, {0, 30, 100}},
@@ -129,7 +133,7 @@ const std::vector<View>& views() {
 
 template <size_t Index>
 std::unique_ptr<Scene> make() {
-  return std::make_unique<AccuracyScene>(*accuracy::findCase(views()[Index].name));
+  return std::make_unique<AccuracyScene>(*accuracy::findCase(views()[Index].name), views()[Index].camera);
 }
 
 template <size_t... Index>

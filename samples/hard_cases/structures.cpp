@@ -180,7 +180,7 @@ std::vector<SceneEntry> structureScenes() {
        .name = "card_houses",
        .shows = "the house of rough cards stands, the one of slippery cards must fall",
        .camera = {.target = {0, 0.85f, 0}, .distance = 5.0f, .yaw_deg = 14.0f, .pitch_deg = 10.0f},
-       .frames = {0, 60, 240},
+       .frames = {0, 24, 60},
        .world = {},
        .make = make<CardHouses>},
       {.sample = sample,

@@ -44,6 +44,21 @@ TEST(Diagram, hasOneMarkerAPointAndNamesEachCurveTwice) {
   EXPECT_EQ(count(">theirs<"), 2u);
 }
 
+TEST(Diagram, aLegendOfManyCurvesEndsBeforeThePictureDoes) {
+  Diagram diagram = example();
+  for (const char* name : {"pfx, soft contacts", "pfx, Newton", "Bullet, float", "ODE, double", "ODE direct, double"})
+    diagram.curves.push_back({name, {{10, 1e-2, ""}}});
+  const auto document = parsed(diagram);
+  const double right = document.child("svg").attribute("width").as_double();
+  size_t entries = 0;
+  for (const auto& entry : document.child("svg").children("text")) {
+    if (std::string_view(entry.attribute("class").value()) != "legend") continue;
+    ++entries;
+    EXPECT_LT(entry.attribute("x").as_double() + 6.6 * double(std::string_view(entry.text().get()).size()), right);
+  }
+  EXPECT_EQ(entries, diagram.curves.size());
+}
+
 TEST(Diagram, aCheaperAndBetterPointLiesToTheLeftAndBelow) {
   const auto document = parsed(example());
   std::vector<std::pair<double, double>> circles;

@@ -30,13 +30,18 @@ struct Joined {
   PfxVector3 turned() { return 2.0f * b().getOrientation().getXYZ(); }
 };
 
-TEST(CompatJoints, ASliderMovesAlongItsDirectionAndStopsAtItsEnds) {
-  Joined j;
+// B slides along y from 0 to 0.5 m, and starts askew.
+void throwAlongSlider(Joined& j) {
   PfxSliderJointInitParam param;
   param.direction = PfxVector3(0, 1, 0);
   param.lowerDistance = 0.0f, param.upperDistance = 0.5f;
   ASSERT_EQ(pfxInitializeSliderJoint(j.joint(), j.a(), j.b(), param), SCE_PFX_OK);
   j.b().setLinearVelocity(PfxVector3(1, 2, 1));
+}
+
+TEST(CompatJoints, ASliderMovesAlongItsDirectionAndStopsAtItsEnds) {
+  Joined j;
+  throwAlongSlider(j);
   j.run(100);
   EXPECT_NEAR(j.b().getPosition()[0], 2.0f, 0.01f);
   EXPECT_NEAR(j.b().getPosition()[2], 0.0f, 0.01f);
@@ -49,11 +54,7 @@ TEST(CompatJoints, ASliderMovesAlongItsDirectionAndStopsAtItsEnds) {
 TEST(CompatJoints, ASliderIsAsGoodWithOneIterationAsWithFourHundred) {
   for (const PfxUInt32 iterations : {1u, 5u, 10u, 50u, 400u}) {
     Joined j;
-    PfxSliderJointInitParam param;
-    param.direction = PfxVector3(0, 1, 0);
-    param.lowerDistance = 0.0f, param.upperDistance = 0.5f;
-    ASSERT_EQ(pfxInitializeSliderJoint(j.joint(), j.a(), j.b(), param), SCE_PFX_OK);
-    j.b().setLinearVelocity(PfxVector3(1, 2, 1));
+    throwAlongSlider(j);
     j.run(100, iterations);
     EXPECT_LT(length(j.b().getPosition() - PfxVector3(2, 0.5f, 0)), 1e-4f) << iterations;
     EXPECT_LT(length(j.b().getLinearVelocity()), 1e-4f) << iterations;

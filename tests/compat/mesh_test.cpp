@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "tests/compat/scene.h"
+#include "tests/compat/terrain.h"
 
 using namespace compat_tests;
 
@@ -27,33 +28,6 @@ size_t bytes() {
   for (const auto& block : blocks) sum += block.second;
   return sum;
 }
-
-// A hilly square of n x n cells of one metre: 2 n n triangles.
-struct Terrain {
-  std::vector<PfxFloat> verts;
-  std::vector<PfxUInt32> indices, data;
-  static PfxFloat height(PfxFloat x, PfxFloat z) { return 0.1f * std::abs(std::fmod(x * 0.3f + z * 0.2f, 2.0f) - 1.0f); }
-  explicit Terrain(PfxUInt32 n) {
-    for (PfxUInt32 z = 0; z <= n; ++z)
-      for (PfxUInt32 x = 0; x <= n; ++x)
-        for (const PfxFloat c : {PfxFloat(x), height(PfxFloat(x), PfxFloat(z)), PfxFloat(z)}) verts.push_back(c);
-    for (PfxUInt32 z = 0; z < n; ++z)
-      for (PfxUInt32 x = 0; x < n; ++x) {
-        const PfxUInt32 a = z * (n + 1) + x, c = a + n + 1;
-        for (const PfxUInt32 i : {a, c, a + 1, a + 1, c, c + 1}) indices.push_back(i);
-        data.push_back(2 * (z * n + x)), data.push_back(2 * (z * n + x) + 1);
-      }
-  }
-  PfxCreateLargeTriMeshParam param(PfxUInt32 flag) const {
-    PfxCreateLargeTriMeshParam p;
-    p.flag = flag | SCE_PFX_MESH_FLAG_32BIT_INDEX;
-    p.verts = verts.data(), p.numVerts = static_cast<PfxUInt32>(verts.size() / 3);
-    p.triangles = indices.data(), p.numTriangles = static_cast<PfxUInt32>(indices.size() / 3);
-    p.triangleStrideBytes = 3 * sizeof(PfxUInt32);
-    p.userData = data.data();
-    return p;
-  }
-};
 
 class CompatMesh : public testing::Test {
  protected:
@@ -126,7 +100,7 @@ TEST_F(CompatMesh, FourKindsOfStorageHoldTheSameSurface) {
 
 TEST_F(CompatMesh, TheLimitOfALargeMeshIs512IslandsOf64Triangles) {
   const Terrain most(128), more(139);  // 32768 and 38642 triangles
-  for (const PfxUInt32 flag : {0u, SCE_PFX_MESH_FLAG_USE_BVH | SCE_PFX_MESH_FLAG_USE_QUANTIZED}) {
+  for (const PfxUInt32 flag : {0u, SCE_PFX_MESH_FLAG_HIGH_QUALITY, SCE_PFX_MESH_FLAG_USE_BVH | SCE_PFX_MESH_FLAG_USE_QUANTIZED}) {
     PfxLargeTriMesh mesh;
     ASSERT_EQ(pfxCreateLargeTriMesh(mesh, most.param(flag)), SCE_PFX_OK) << flag;
     EXPECT_LE(mesh.m_numIslands, 512);
@@ -186,12 +160,8 @@ TEST_F(CompatMesh, AConvexMeshHasAtMost64Triangles) {
 }
 
 TEST_F(CompatMesh, ABallRollsOverTheSeamOfTwoMeshes) {
-  const PfxFloat verts[] = {0, 0, -5, 10, 0, -5, 0, 0, 5, 10, 0, 5};
-  const PfxUInt16 triangles[] = {0, 2, 1, 1, 2, 3};
-  PfxCreateLargeTriMeshParam param;
-  param.verts = verts, param.numVerts = 4, param.triangles = triangles, param.numTriangles = 2;
   PfxLargeTriMesh mesh;
-  ASSERT_EQ(pfxCreateLargeTriMesh(mesh, param), SCE_PFX_OK);
+  ASSERT_EQ(createRectangle(mesh, 10.0f, 5.0f), SCE_PFX_OK);
   Scene scene;
   PfxShape ground, ball;
   ground.setLargeTriMesh(&mesh);

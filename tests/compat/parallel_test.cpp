@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "tests/compat/scene.h"
+#include "tests/compat/terrain.h"
 
 using namespace compat_tests;
 
@@ -167,12 +168,8 @@ TEST_F(CompatParallel, SortsAreTheSameForAnyNumberOfTasks) {
 
 // A pile on a mesh floor in two bodies, some of it on joints: detection, refresh, set-up, solving and integration.
 TEST_F(CompatParallel, APileOnMeshesAndJointsIsTheSameForAnyNumberOfTasks) {
-  const PfxFloat verts[] = {0, 0, -20, 20, 0, -20, 0, 0, 20, 20, 0, 20};
-  const PfxUInt16 triangles[] = {0, 2, 1, 1, 2, 3};
-  PfxCreateLargeTriMeshParam param;
-  param.verts = verts, param.numVerts = 4, param.triangles = triangles, param.numTriangles = 2;
   PfxLargeTriMesh mesh;
-  ASSERT_EQ(pfxCreateLargeTriMesh(mesh, param), SCE_PFX_OK);
+  ASSERT_EQ(createRectangle(mesh, 20.0f, 20.0f), SCE_PFX_OK);
   std::vector<PfxVector3> expected;
   for (PfxTaskManager* tasks : all()) {
     Scene scene;

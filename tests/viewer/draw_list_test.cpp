@@ -47,12 +47,12 @@ TEST(DrawList, PrimitivesBecomeInstancesOfUnitMeshesThatCarryTheirSize) {
   r.list.end();
   const auto& batches = r.list.batches();
   ASSERT_EQ(batches.size(), 3u);
-  EXPECT_EQ(batches.at(kRound).instances.size(), 4u);
-  EXPECT_EQ(batches.at(kRound).instances[0].scale, Vec3(0, 0.5f, 0.5f));
-  EXPECT_EQ(batches.at(kRound).instances[2].scale, Vec3(2, 0.25f, 0.25f));
-  EXPECT_EQ(batches.at(kUnitBox).instances[1].scale, Vec3(1, 2, 3));
-  EXPECT_EQ(batches.at(kUnitCylinder).instances[0].scale, Vec3(0.7f, 0.3f, 0.3f));
-  EXPECT_EQ(batches.at(kUnitBox).instances[1].pick, pickId(PickKind::Body, 1));
+  EXPECT_EQ(batches.at({kRound, Layer::Plain}).instances.size(), 4u);
+  EXPECT_EQ(batches.at({kRound, Layer::Plain}).instances[0].scale, Vec3(0, 0.5f, 0.5f));
+  EXPECT_EQ(batches.at({kRound, Layer::Plain}).instances[2].scale, Vec3(2, 0.25f, 0.25f));
+  EXPECT_EQ(batches.at({kUnitBox, Layer::Plain}).instances[1].scale, Vec3(1, 2, 3));
+  EXPECT_EQ(batches.at({kUnitCylinder, Layer::Plain}).instances[0].scale, Vec3(0.7f, 0.3f, 0.3f));
+  EXPECT_EQ(batches.at({kUnitBox, Layer::Plain}).instances[1].pick, pickId(PickKind::Body, 1));
 }
 
 TEST(DrawList, SolidsThatWereNeverAnnouncedAreIgnored) {
@@ -67,13 +67,13 @@ TEST(DrawList, UnchangedInstancesKeepTheirRevisionAndAMovedOneTouchesOnlyItsBloc
   Recording r;
   std::vector<SolidInstance> bodies = rowOfBodies(1000);
   r.frame(bodies);
-  const std::vector<uint64_t> first = r.list.batches().at(kUnitBox).block_revisions;
+  const std::vector<uint64_t> first = r.list.batches().at({kUnitBox, Layer::Plain}).block_revisions;
   r.frame(bodies);
-  EXPECT_EQ(r.list.batches().at(kUnitBox).block_revisions, first);
+  EXPECT_EQ(r.list.batches().at({kUnitBox, Layer::Plain}).block_revisions, first);
 
   bodies[200].pose.position.y() = 1.0f;
   r.frame(bodies);
-  const std::vector<uint64_t>& second = r.list.batches().at(kUnitBox).block_revisions;
+  const std::vector<uint64_t>& second = r.list.batches().at({kUnitBox, Layer::Plain}).block_revisions;
   ASSERT_EQ(second.size(), first.size());
   for (size_t b = 0; b < first.size(); ++b)
     EXPECT_EQ(second[b] != first[b], b == 200 / Batch::kBlock) << "block " << b;
@@ -84,7 +84,7 @@ TEST(DrawList, BodiesThatAreNotRecordedAgainDisappear) {
   r.frame(rowOfBodies(100));
   r.frame(rowOfBodies(40));
   EXPECT_EQ(r.list.numInstances(), 40u);
-  EXPECT_EQ(r.list.batches().at(kUnitBox).block_revisions.size(), 1u);
+  EXPECT_EQ(r.list.batches().at({kUnitBox, Layer::Plain}).block_revisions.size(), 1u);
   r.list.begin();
   r.list.end();
   EXPECT_EQ(r.list.numInstances(), 0u);

@@ -220,15 +220,36 @@ std::string drawNames(const Diagram& d, const Axes& a) {
   return out;
 }
 
+struct LegendPlace {
+  double x;
+  int row;
+};
+
+// In rows that end before the picture does.
+std::vector<LegendPlace> placeLegend(const Diagram& d) {
+  constexpr double kSample = 30, kLetter = 6.6, kGap = 18, kMargin = 8;  // px
+  std::vector<LegendPlace> places;
+  LegendPlace next{kLeft, 0};
+  for (const DiagramCurve& curve : d.curves) {
+    const double width = kSample + kLetter * static_cast<double>(curve.name.size());
+    if (next.x > kLeft && next.x + width > kWidth - kMargin) next = {kLeft, next.row + 1};
+    places.push_back(next);
+    next.x += width + kGap;
+  }
+  return places;
+}
+
 std::string drawLegend(const Diagram& d) {
+  constexpr double kOneRow = 62, kFirstOfTwo = 52, kRowHeight = 15;  // px
+  const std::vector<LegendPlace> places = placeLegend(d);
   std::string out;
-  double x = kLeft;
   for (size_t i = 0; i < d.curves.size(); ++i) {
-    out += text("<line x1='%.1f' y1='62' x2='%.1f' y2='62' stroke='%s' stroke-width='%g'/>\n", x, x + 24,
+    const auto [x, row] = places[i];
+    const double y = places.back().row == 0 ? kOneRow : kFirstOfTwo + kRowHeight * row;
+    out += text("<line x1='%.1f' y1='%g' x2='%.1f' y2='%g' stroke='%s' stroke-width='%g'/>\n", x, y, x + 24, y,
                 kColors[i % kColors.size()], i == 0 ? 3.0 : 1.8);
-    if (d.form == Diagram::Form::LogLog) out += drawMarker(i, x + 12, 62);
-    out += drawText(x + 30, 66, "class='legend'", d.curves[i].name);
-    x += 48 + 6.6 * static_cast<double>(d.curves[i].name.size());
+    if (d.form == Diagram::Form::LogLog) out += drawMarker(i, x + 12, y);
+    out += drawText(x + 30, y + 4, "class='legend'", d.curves[i].name);
   }
   return out;
 }
@@ -243,8 +264,8 @@ std::string drawSvg(const Diagram& d) {
   out += "<style>.tick{fill:#4b5563}.axis{fill:#1f2937;font-size:13px}.note{fill:#6b7280;font-size:11px}"
          ".legend{fill:#1f2937}</style>\n";
   out += text("<rect width='%g' height='%g' fill='#fbfbf9'/>\n", kWidth, kHeight);
-  out += drawText(kLeft, 26, "font-size='17' font-weight='bold' fill='#111827'", d.title);
-  out += drawText(kLeft, 44, "font-size='12.5' fill='#4b5563'", d.subtitle);
+  out += drawText(kLeft, 20, "font-size='17' font-weight='bold' fill='#111827'", d.title);
+  out += drawText(kLeft, 37, "font-size='12.5' fill='#4b5563'", d.subtitle);
   out += drawGrid(d, axes) + drawMarks(d, axes);
   for (size_t i = d.curves.size(); i-- > 0;) out += drawCurve(d, axes, i);
   out += drawNames(d, axes) + drawLegend(d);

@@ -52,24 +52,44 @@ void DrawList::begin() {
 }
 
 void DrawList::end() {
-  std::erase_if(transient_, [&](uint64_t key) {
-    const auto batch = batches_.find(key);
-    if (batch != batches_.end() && batch->second.recorded > 0) return false;
-    if (batch != batches_.end()) batches_.erase(batch);
-    meshes_.erase(key);
+  std::erase_if(transient_, [&](uint64_t mesh) {
+    const auto isShown = [&](const auto& entry) { return entry.first.mesh == mesh && entry.second.recorded > 0; };
+    if (std::any_of(batches_.begin(), batches_.end(), isShown)) return false;
+    std::erase_if(batches_, [&](const auto& entry) { return entry.first.mesh == mesh; });
+    meshes_.erase(mesh);
     return true;
   });
   for (auto& [key, batch] : batches_) {
-    if (batch.recorded < batch.instances.size()) {
-      batch.instances.resize(batch.recorded);
-      batch.block_revisions.resize((batch.recorded + Batch::kBlock - 1) / Batch::kBlock);
-      batch.revision = revision_;
-    }
-    if (batch.revision == revision_) {
-      batch.layers = 0;
-      for (const Instance& i : batch.instances) batch.layers |= uint32_t(layerOf(i));
-    }
+    dropUnrecorded(batch);
+    measureBlocks(key.mesh, batch);
   }
+}
+
+void DrawList::dropUnrecorded(Batch& batch) const {
+  if (batch.recorded == batch.instances.size()) return;
+  batch.instances.resize(batch.recorded);
+  batch.block_revisions.resize((batch.recorded + Batch::kBlock - 1) / Batch::kBlock);
+  if (!batch.block_revisions.empty()) batch.block_revisions.back() = revision_;
+}
+
+void DrawList::measureBlocks(uint64_t mesh, Batch& batch) const {
+  batch.block_bounds.resize(batch.block_revisions.size());
+  for (size_t b = 0; b < batch.block_bounds.size(); ++b) {
+    if (batch.block_revisions[b] != revision_) continue;
+    batch.block_bounds[b] = {};
+    for (const Instance& i : batch.block(b)) batch.block_bounds[b].extend(boundsOf(mesh, i));
+  }
+}
+
+pfx::Aabb DrawList::boundsOf(uint64_t mesh, const Instance& i) const {
+  const auto box = [&](const pfx::Vec3& center, const pfx::Vec3& half_extent) {
+    return pfx::transformedAabb({i.position, i.orientation}, center, half_extent);
+  };
+  if (mesh == kRound) return box(pfx::Vec3::Zero(), {i.scale.x() + i.scale.y(), i.scale.y(), i.scale.y()});
+  const auto found = meshes_.find(mesh);
+  if (found == meshes_.end()) return box(pfx::Vec3::Zero(), i.scale);
+  const pfx::Aabb& own = found->second.bounds;
+  return box(own.center().cwiseProduct(i.scale), own.halfExtent().cwiseProduct(i.scale));
 }
 
 void DrawList::defineMesh(uint64_t key, MeshData mesh) { meshes_.try_emplace(key, std::move(mesh)); }
@@ -77,7 +97,7 @@ void DrawList::defineMesh(uint64_t key, MeshData mesh) { meshes_.try_emplace(key
 bool DrawList::operator==(const DrawList& other) const {
   // Batches that became empty do not count: they only remember that something was there.
   const auto instances = [](const DrawList& list) {
-    std::vector<std::pair<uint64_t, std::span<const Instance>>> all;
+    std::vector<std::pair<BatchKey, std::span<const Instance>>> all;
     for (const auto& [key, batch] : list.batches_)
       if (!batch.instances.empty()) all.push_back({key, batch.instances});
     return all;
@@ -95,7 +115,8 @@ uint64_t DrawList::hash() const {
   Hasher h;
   for (const auto& [key, batch] : batches_) {
     if (batch.instances.empty()) continue;
-    h.add(key);
+    h.add(key.mesh);
+    h.add(uint64_t(key.layer));
     h.add(std::span<const Instance>(batch.instances));
   }
   h.add(lines());

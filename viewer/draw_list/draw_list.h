@@ -6,6 +6,7 @@
 // can be compared and hashed, which is how the drawing is tested without a graphics library.
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <map>
@@ -60,6 +61,8 @@ inline Layer layerOf(const Instance& i) {
   return finish == pfx::Finish::Matte && large ? Layer::Floor : Layer::Plain;
 }
 
+constexpr bool throwsShadow(Layer layer) { return layer == Layer::Plain || layer == Layer::Shiny; }
+
 struct Line {
   pfx::Vec3 from, to;  // m
   Color color;
@@ -106,16 +109,26 @@ struct LegendEntry {
   bool operator==(const LegendEntry&) const = default;
 };
 
-// The instances of one mesh. Blocks of kBlock instances remember when they changed.
+// What is drawn together: instances of one mesh in one layer.
+struct BatchKey {
+  uint64_t mesh;
+  Layer layer;
+  auto operator<=>(const BatchKey&) const = default;
+};
+
+// The instances of a key. Blocks of kBlock instances remember when they changed.
 struct Batch {
   static constexpr size_t kBlock = 64;
   std::vector<Instance> instances;
   // (ceil(instances / kBlock)) revision of the list at the last change. Revisions are unique in the process:
-  // a block of this mesh with the same revision has the same content, in whichever list.
+  // a block of this key with the same revision has the same content, in whichever list.
   std::vector<uint64_t> block_revisions;
-  uint64_t revision = 0;  // of the last change of anything in it, its length included
-  uint32_t layers = 0;    // bits of the layers that its instances are in
-  size_t recorded = 0;    // instances of the frame that is being recorded
+  std::vector<pfx::Aabb> block_bounds;  // m, of the blocks' instances, when the frame has ended
+  size_t recorded = 0;                  // instances of the frame that is being recorded
+
+  std::span<const Instance> block(size_t b) const {
+    return std::span(instances).subspan(b * kBlock, std::min(kBlock, instances.size() - b * kBlock));
+  }
 };
 
 class DrawList {
@@ -155,13 +168,15 @@ class DrawList {
   uint64_t hash() const;
 
   const std::map<uint64_t, MeshData>& meshes() const { return meshes_; }
-  const std::map<uint64_t, Batch>& batches() const { return batches_; }
+  const std::map<BatchKey, Batch>& batches() const { return batches_; }
   std::span<const Line> lines() const { return lines_; }
   std::span<const Arrow> arrows() const { return arrows_; }
   std::span<const Point> points() const { return points_; }
   std::span<const Label> labels() const { return labels_; }
   std::span<const LegendEntry> legend() const { return legend_; }
   size_t numInstances() const;
+  // m, of an instance in the world.
+  pfx::Aabb boundsOf(uint64_t mesh, const Instance& instance) const;
 
   Camera camera;
   Sun sun;
@@ -171,7 +186,7 @@ class DrawList {
   std::map<uint64_t, MeshData>
       meshes_;  // of keys above kRound; ordered, so that pictures do not depend on history
   std::vector<uint64_t> transient_;  // keys of the meshes that do not stay
-  std::map<uint64_t, Batch> batches_;
+  std::map<BatchKey, Batch> batches_;
   std::vector<Line> lines_;
   std::vector<Arrow> arrows_;
   std::vector<Point> points_;
@@ -179,24 +194,32 @@ class DrawList {
   std::vector<LegendEntry> legend_;
   uint64_t revision_ = nextRevision();
   static uint64_t nextRevision();
+  void put(Batch& batch, const Instance& next);
+  void dropUnrecorded(Batch& batch) const;
+  void measureBlocks(uint64_t mesh, Batch& batch) const;
 };
+
+inline void DrawList::put(Batch& batch, const Instance& next) {
+  const size_t i = batch.recorded++;
+  if (i == batch.instances.size()) {
+    batch.instances.emplace_back();
+    batch.block_revisions.resize(i / Batch::kBlock + 1, 0);
+  } else if (std::memcmp(static_cast<const void*>(&batch.instances[i]), &next, sizeof next) == 0) {
+    return;
+  }
+  batch.instances[i] = next;
+  batch.block_revisions[i / Batch::kBlock] = revision_;
+}
 
 template <class Make>
 void DrawList::append(uint64_t mesh, size_t count, const Make& make) {
-  Batch& batch = batches_[mesh];
-  const size_t first = batch.recorded;
-  batch.recorded += count;
-  const size_t known = batch.instances.size();
-  if (batch.recorded > known) {
-    batch.instances.resize(batch.recorded);
-    batch.block_revisions.resize((batch.recorded + Batch::kBlock - 1) / Batch::kBlock, 0);
-  }
-  for (size_t i = first; i < batch.recorded; ++i) {
-    const Instance next = make(i - first);
-    Instance& slot = batch.instances[i];
-    if (i < known && std::memcmp(static_cast<const void*>(&slot), &next, sizeof next) == 0) continue;
-    slot = next;
-    batch.block_revisions[i / Batch::kBlock] = batch.revision = revision_;
+  Batch* batch = nullptr;
+  Layer of_batch = Layer::Plain;
+  for (size_t i = 0; i < count; ++i) {
+    const Instance next = make(i);
+    const Layer layer = layerOf(next);
+    if (!batch || layer != of_batch) batch = &batches_[{mesh, layer}], of_batch = layer;
+    put(*batch, next);
   }
 }
 

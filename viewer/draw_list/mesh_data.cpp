@@ -100,8 +100,17 @@ MeshData makeMesh(std::span<const Vec3> points, std::span<const uint32_t> indice
 
   MeshData mesh;
   mesh.vertices.reserve(3 * triangles.size());
+  mesh.indices.reserve(3 * triangles.size());
+  constexpr uint32_t kNone = ~0u;
+  std::vector<uint32_t> place(points.size(), kNone);
   for (const Triangle& t : triangles)
     for (int k = 0; k < 3; ++k) {
+      uint32_t& index = place[t.corner[k]];
+      if (index == kNone) {
+        index = uint32_t(mesh.positions.size());
+        mesh.positions.push_back(points[t.corner[k]]);
+      }
+      mesh.indices.push_back(index);
       Vec3 edge = Vec3::Zero();
       edge[k] = 1.0f;
       for (int e = 0; e < 3; ++e)
@@ -111,6 +120,14 @@ MeshData makeMesh(std::span<const Vec3> points, std::span<const uint32_t> indice
     }
   for (const MeshVertex& v : mesh.vertices) mesh.bounds.extend(v.position);
   return mesh;
+}
+
+void MeshData::append(const MeshData& other) {
+  const auto first = uint32_t(positions.size());
+  vertices.insert(vertices.end(), other.vertices.begin(), other.vertices.end());
+  positions.insert(positions.end(), other.positions.begin(), other.positions.end());
+  for (const uint32_t index : other.indices) indices.push_back(first + index);
+  bounds.extend(other.bounds);
 }
 
 MeshData makeUnitBox() {

@@ -26,7 +26,12 @@ inline constexpr float kPlainEdge = 2.0f;
 
 struct MeshData {
   std::vector<MeshVertex> vertices;  // (3 x triangles)
-  pfx::Aabb bounds;                  // m, of the vertices
+  // The same triangles for passes that need no more than places: each place once, and (3 x triangles) indices.
+  std::vector<pfx::Vec3> positions;  // m, shape frame
+  std::vector<uint32_t> indices;
+  pfx::Aabb bounds;  // m, of the vertices
+
+  void append(const MeshData& other);  // its triangles too
 };
 
 // Edges whose faces meet at more than 30 degrees are feature edges, and normals are smooth across the others.

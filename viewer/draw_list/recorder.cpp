@@ -44,8 +44,7 @@ MeshData triangulate(const pfx::LargeMesh& mesh) {
       [](const pfx::MeshIndices& n) { return std::find(n.begin(), n.end(), pfx::kNoFacet) != n.end(); });
   if (!is_open) return front;
   for (size_t i = 0; i + 3 <= indices.size(); i += 3) std::swap(indices[i + 1], indices[i + 2]);
-  const MeshData back = makeMesh(points, indices);
-  front.vertices.insert(front.vertices.end(), back.vertices.begin(), back.vertices.end());
+  front.append(makeMesh(points, indices));
   return front;
 }
 

@@ -4,36 +4,27 @@
 #include <cmath>
 #include <numbers>
 
-#include "pfx/base_level/shape/aabb.h"
-
 namespace viewer {
 
 namespace {
 
 using pfx::Vec3;
 
-Vec3 halfExtent(uint64_t mesh, const Instance& i, const pfx::Aabb& bounds) {
-  if (mesh == kRound) return {i.scale.x() + i.scale.y(), i.scale.y(), i.scale.y()};
-  if (mesh == kUnitBox || mesh == kUnitCylinder) return i.scale;
-  return bounds.halfExtent().cwiseProduct(i.scale);
-}
-
 // Bounds of all that throws shadows, cut to the neighbourhood of what the camera looks at.
 pfx::Aabb casterBounds(const DrawList& list) {
   const float reach = 2.5f * (list.camera.target - list.camera.eye).norm();
-  pfx::Aabb near = {list.camera.target - Vec3::Constant(reach), list.camera.target + Vec3::Constant(reach)};
+  const pfx::Aabb near = {list.camera.target - Vec3::Constant(reach), list.camera.target + Vec3::Constant(reach)};
   pfx::Aabb all;
   for (const auto& [key, batch] : list.batches()) {
-    const auto mesh = list.meshes().find(key);
-    const pfx::Aabb bounds =
-        mesh == list.meshes().end() ? pfx::Aabb{-Vec3::Ones(), Vec3::Ones()} : mesh->second.bounds;
-    for (const Instance& i : batch.instances) {
-      if (layerOf(i) == Layer::Floor || layerOf(i) == Layer::Translucent) continue;
-      const Vec3 center =
-          mesh == list.meshes().end() ? Vec3(Vec3::Zero()) : Vec3(bounds.center().cwiseProduct(i.scale));
-      const pfx::Aabb box =
-          pfx::transformedAabb({i.position, i.orientation}, center, halfExtent(key, i, bounds));
-      if (box.overlaps(near)) all.extend(box);
+    if (!throwsShadow(key.layer)) continue;
+    for (size_t b = 0; b < batch.block_bounds.size(); ++b) {
+      const pfx::Aabb& block = batch.block_bounds[b];
+      if (near.contains(block)) {
+        all.extend(block);
+      } else if (near.overlaps(block)) {
+        for (const Instance& i : batch.block(b))
+          if (const pfx::Aabb box = list.boundsOf(key.mesh, i); box.overlaps(near)) all.extend(box);
+      }
     }
   }
   if (all.min.x() > all.max.x()) return all;

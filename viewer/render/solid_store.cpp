@@ -34,32 +34,56 @@ MeshData dataOf(uint64_t key, const DrawList& list) {
 
 }  // namespace
 
+void pointToInstances(const Gl& gl, GLuint buffer, size_t first) {
+  gl.BindBuffer(GL_ARRAY_BUFFER, buffer);
+  constexpr GLsizei kInstance = sizeof(Instance);
+  const size_t base = first * sizeof(Instance);
+  bindFloats(gl, 3, {3, GL_FLOAT, base + offsetof(Instance, position)}, kInstance, 1);
+  bindFloats(gl, 4, {4, GL_FLOAT, base + offsetof(Instance, orientation)}, kInstance, 1);
+  bindFloats(gl, 5, {3, GL_FLOAT, base + offsetof(Instance, scale)}, kInstance, 1);
+  bindFloats(gl, 6, {4, GL_UNSIGNED_BYTE, base + offsetof(Instance, color)}, kInstance, 1);
+  bindInteger(gl, 7, base + offsetof(Instance, finish), kInstance);
+  bindInteger(gl, 8, base + offsetof(Instance, pick), kInstance);
+}
+
+template <class T>
+void SolidStore::fill(const GlBuffer& buffer, GLenum target, const std::vector<T>& data) {
+  gl_->BindBuffer(target, buffer.id());
+  gl_->BufferData(target, GLsizeiptr(data.size() * sizeof(T)), data.data(), GL_STATIC_DRAW);
+  sent_ += data.size() * sizeof(T);
+}
+
 const SolidStore::Mesh& SolidStore::mesh(uint64_t key, const DrawList& list) {
   const auto found = meshes_.find(key);
   if (found != meshes_.end()) return found->second;
   const MeshData data = dataOf(key, list);
-  Mesh made{GlBuffer(*gl_), GLsizei(data.vertices.size())};
-  const size_t bytes = data.vertices.size() * sizeof(MeshVertex);
-  gl_->BindBuffer(GL_ARRAY_BUFFER, made.vertices.id());
-  gl_->BufferData(GL_ARRAY_BUFFER, GLsizeiptr(bytes), data.vertices.data(), GL_STATIC_DRAW);
-  sent_ += bytes;
+  Mesh made{GlBuffer(*gl_), GlBuffer(*gl_), GlBuffer(*gl_), GLsizei(data.vertices.size())};
+  gl_->BindVertexArray(0);
+  fill(made.vertices, GL_ARRAY_BUFFER, data.vertices);
+  fill(made.positions, GL_ARRAY_BUFFER, data.positions);
+  fill(made.indices, GL_ARRAY_BUFFER, data.indices);
   return meshes_.emplace(key, std::move(made)).first->second;
 }
 
-SolidDraw SolidStore::describe(GLuint array, const Mesh& mesh, GLuint instances, size_t first) {
-  gl_->BindVertexArray(array);
+void SolidStore::describe(const Arrays& arrays, const Mesh& mesh, GLuint instances, size_t first) {
+  gl_->BindVertexArray(arrays.shaded.id());
   gl_->BindBuffer(GL_ARRAY_BUFFER, mesh.vertices.id());
-  constexpr GLsizei kVertex = sizeof(MeshVertex), kInstance = sizeof(Instance);
-  for (GLuint i = 0; i < 3; ++i) bindFloats(*gl_, i, {3, GL_FLOAT, 12 * size_t(i)}, kVertex, 0);
-  gl_->BindBuffer(GL_ARRAY_BUFFER, instances);
-  const size_t base = first * sizeof(Instance);
-  bindFloats(*gl_, 3, {3, GL_FLOAT, base + offsetof(Instance, position)}, kInstance, 1);
-  bindFloats(*gl_, 4, {4, GL_FLOAT, base + offsetof(Instance, orientation)}, kInstance, 1);
-  bindFloats(*gl_, 5, {3, GL_FLOAT, base + offsetof(Instance, scale)}, kInstance, 1);
-  bindFloats(*gl_, 6, {4, GL_UNSIGNED_BYTE, base + offsetof(Instance, color)}, kInstance, 1);
-  bindInteger(*gl_, 7, base + offsetof(Instance, finish), kInstance);
-  bindInteger(*gl_, 8, base + offsetof(Instance, pick), kInstance);
-  return {array, mesh.count, 0, false, 0};
+  for (GLuint i = 0; i < 3; ++i) bindFloats(*gl_, i, {3, GL_FLOAT, 12 * size_t(i)}, sizeof(MeshVertex), 0);
+  pointToInstances(*gl_, instances, first);
+  gl_->BindVertexArray(arrays.bare.id());
+  gl_->BindBuffer(GL_ARRAY_BUFFER, mesh.positions.id());
+  bindFloats(*gl_, 0, {3, GL_FLOAT, 0}, sizeof(pfx::Vec3), 0);
+  gl_->BindBuffer(GL_ELEMENT_ARRAY_BUFFER, mesh.indices.id());
+  pointToInstances(*gl_, instances, first);
+}
+
+SolidStore::Instances& SolidStore::instances(const BatchKey& key, const Mesh& mesh) {
+  auto found = instances_.find(key);
+  if (found == instances_.end()) {
+    found = instances_.emplace(key, Instances{Arrays(*gl_), GlBuffer(*gl_), 0, {}}).first;
+    describe(found->second.arrays, mesh, found->second.buffer.id(), 0);
+  }
+  return found->second;
 }
 
 void SolidStore::send(Instances& to, const Batch& batch) {
@@ -91,12 +115,9 @@ void SolidStore::send(Instances& to, const Batch& batch) {
 
 // Meshes that changed from frame to frame would fill the memory of the GPU.
 void SolidStore::forgetGone(const DrawList& list) {
-  std::erase_if(meshes_, [&](const auto& entry) {
-    const uint64_t key = entry.first;
-    if (key <= kRound || list.hasMesh(key)) return false;
-    instances_.erase(key);
-    return true;
-  });
+  const auto isGone = [&](uint64_t key) { return key > kRound && !list.hasMesh(key); };
+  std::erase_if(meshes_, [&](const auto& entry) { return isGone(entry.first); });
+  std::erase_if(instances_, [&](const auto& entry) { return isGone(entry.first.mesh); });
 }
 
 size_t SolidStore::update(const DrawList& list) {
@@ -105,15 +126,17 @@ size_t SolidStore::update(const DrawList& list) {
   forgetGone(list);
   for (const auto& [key, batch] : list.batches()) {
     if (batch.instances.empty()) continue;
-    const Mesh& shape = mesh(key, list);
-    auto found = instances_.find(key);
-    if (found == instances_.end()) {
-      found = instances_.emplace(key, Instances{GlVertexArray(*gl_), GlBuffer(*gl_), 0, {}}).first;
-      describe(found->second.array.id(), shape, found->second.buffer.id(), 0);
-    }
-    send(found->second, batch);
-    draws_.push_back({found->second.array.id(), shape.count, GLsizei(batch.instances.size()), key == kRound,
-                      batch.layers});
+    const Mesh& shape = mesh(key.mesh, list);
+    Instances& of_key = instances(key, shape);
+    send(of_key, batch);
+    draws_.push_back({.shaded = of_key.arrays.shaded.id(),
+                      .bare = of_key.arrays.bare.id(),
+                      .vertices = shape.count,
+                      .instance_buffer = of_key.buffer.id(),
+                      .instances = GLsizei(batch.instances.size()),
+                      .layer = key.layer,
+                      .round = key.mesh == kRound,
+                      .block_bounds = batch.block_bounds});
   }
   sortTranslucent(list);
   gl_->BindVertexArray(0);
@@ -129,10 +152,9 @@ void SolidStore::sortTranslucent(const DrawList& list) {
   std::vector<Item> items;
   const CameraAxes view = axes(list.camera);
   for (const auto& [key, batch] : list.batches())
-    if (batch.layers & uint32_t(Layer::Translucent))
+    if (key.layer == Layer::Translucent)
       for (const Instance& i : batch.instances)
-        if (layerOf(i) == Layer::Translucent)
-          items.push_back({(i.position - list.camera.eye).dot(view.forward), key, &i});
+        items.push_back({(i.position - list.camera.eye).dot(view.forward), key.mesh, &i});
   translucent_.clear();
   if (items.empty()) return;
   std::stable_sort(items.begin(), items.end(),
@@ -149,12 +171,17 @@ void SolidStore::sortTranslucent(const DrawList& list) {
     size_t end = first;
     while (end < items.size() && items[end].mesh == items[first].mesh) ++end;
     if (sorted_arrays_.size() == translucent_.size()) sorted_arrays_.emplace_back(*gl_);
-    SolidDraw draw = describe(sorted_arrays_[translucent_.size()].id(), mesh(items[first].mesh, list),
-                              sorted_.id(), first);
-    draw.instances = GLsizei(end - first);
-    draw.round = items[first].mesh == kRound;
-    draw.layers = uint32_t(Layer::Translucent);
-    translucent_.push_back(draw);
+    const Arrays& arrays = sorted_arrays_[translucent_.size()];
+    const Mesh& shape = mesh(items[first].mesh, list);
+    describe(arrays, shape, sorted_.id(), first);
+    translucent_.push_back({.shaded = arrays.shaded.id(),
+                            .bare = arrays.bare.id(),
+                            .vertices = shape.count,
+                            .instance_buffer = sorted_.id(),
+                            .instances = GLsizei(end - first),
+                            .layer = Layer::Translucent,
+                            .round = items[first].mesh == kRound,
+                            .block_bounds = {}});
     first = end;
   }
 }

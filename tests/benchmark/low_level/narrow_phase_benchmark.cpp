@@ -1,110 +1,50 @@
-// Cost of the narrow phase per pair in falling piles of convex hulls, where most pairs are near and few
-// touch.
+// Cost of the narrow phase per pair in falling piles, ours and, over the same motion, that of the engines installed.
 #include <benchmark/benchmark.h>
 
-#include <cmath>
 #include <string_view>
-#include <vector>
 
-#include "pfx/base_level/shape/convex_hull.h"
-#include "pfx/high_level/world/world.h"
+#include "tests/benchmark/low_level/narrow_phase_peers.h"
+#include "tests/benchmark/low_level/pile_scenes.h"
 
-namespace pfx {
+namespace pfx_test {
 namespace {
 
-constexpr float kStep = 1.0f / 60.0f;
-
-ConvexMesh hull(const std::vector<Vec3>& points) {
-  ConvexMesh mesh;
-  buildConvexMesh(points, mesh);
-  return mesh;
+double collisionSeconds(const World& world) {
+  double seconds = 0.0;
+  for (const StageTime& t : world.stageTimes())
+    if (std::string_view(t.name) == "collision") seconds = 1e-3 * t.milliseconds;
+  return seconds;
 }
 
-// 32 points on a sphere of radius 2 m.
-ConvexMesh roundHull() {
-  std::vector<Vec3> points;
-  uint32_t random = 12345;
-  const auto next = [&] {
-    return static_cast<float>((random = random * 1664525u + 1013904223u) >> 8) * 0x1p-23f - 1.0f;
-  };
-  while (points.size() < 32) {
-    const float x = next(), y = next(), z = next();
-    const Vec3 p(x, y, z);
-    if (p.norm() > 0.1f) points.push_back(2.0f * p.normalized());
-  }
-  return hull(points);
-}
-
-// Ten points of a Fibonacci lattice on a sphere of radius 1.5 m.
-ConvexMesh rock() {
-  std::vector<Vec3> points;
-  for (int i = 0; i < 10; ++i) {
-    const float z = 1.0f - static_cast<float>(2 * i + 1) / 10.0f, r = std::sqrt(1.0f - z * z);
-    const float azimuth = 6.2831853f / 1.6180340f * static_cast<float>(i);
-    points.push_back(1.5f * Vec3(r * std::cos(azimuth), r * std::sin(azimuth), z));
-  }
-  return hull(points);
-}
-
-void addFixedBox(World& world, const Vec3& position, const Vec3& half_extent) {
-  world.addBody(
-      {.pose = {.position = position}, .motion_type = MotionType::Fixed, .shapes = {{Box{half_extent}, {}}}});
-}
-
-// 8 x 8 columns of round hulls, 80 high.
-World convexPile() {
-  World world;
-  addFixedBox(world, Vec3(0, -1, 0), Vec3(250, 1, 250));
-  const ConvexMesh* mesh = world.keep(roundHull());
-  for (int y = 0; y < 80; ++y)
-    for (int i = 0; i < 64; ++i)
-      world.addBody(
-          {.pose = {.position = 4.0f * Vec3(static_cast<float>(i % 8 - 4), static_cast<float>(y) + 0.5f,
-                                            static_cast<float>(i / 8 - 4))},
-           .shapes = {{mesh, {}}},
-           .mass = 1000.0f * mesh->volume,
-           .restitution = 0.0f});
-  return world;
-}
-
-// 21 x 21 columns of rocks, 24 high, in a walled yard; the pusher stands still.
-World junkyard() {
-  World world;
-  addFixedBox(world, Vec3(0, -1, 0), Vec3(120, 1, 120));
-  for (const float side : {-50.0f, 50.0f}) {
-    addFixedBox(world, Vec3(side, 7, 0), Vec3(1, 8, 50));
-    addFixedBox(world, Vec3(0, 7, side), Vec3(50, 8, 1));
-  }
-  const ConvexMesh* mesh = world.keep(rock());
-  for (int y = 0; y < 24; ++y)
-    for (int i = 0; i < 441; ++i)
-      world.addBody({.pose = {.position = Vec3(4.0f * static_cast<float>(i % 21) - 40.0f,
-                                               4.0f * static_cast<float>(y) + 25.0f,
-                                               4.0f * static_cast<float>(i / 21) - 40.0f)},
-                     .shapes = {{mesh, {}}},
-                     .mass = 1000.0f * mesh->volume,
-                     .restitution = 0.0f});
-  return world;
-}
-
-// Steps to state.range(0), then times the collision stage of each further step.
+// Steps to state.range(0). In each further step the collision stage is timed, and every other engine finds the contacts
+// of the same bodies at the same places, with what it remembers of the step before.
 void narrowPhase(benchmark::State& state, World (*make)()) {
   World world = make();
   for (int64_t i = 0; i < state.range(0); ++i) world.step(kStep);
+  const auto peers = narrowPhasePeers(world);
   double seconds = 0.0, pairs = 0.0, touching = 0.0;
+  std::vector<PeerCost> costs(peers.size());
   for (auto _ : state) {
     world.step(kStep);
-    double stage = 0.0;
-    for (const StageTime& t : world.stageTimes())
-      if (std::string_view(t.name) == "collision") stage = 1e-3 * t.milliseconds;
+    const double stage = collisionSeconds(world);
     state.SetIterationTime(stage);
     seconds += stage;
     pairs += world.counts().pairs;
     touching += world.counts().touching_pairs;
+    for (size_t k = 0; k < peers.size(); ++k) {
+      const PeerCost cost = peers[k]->findContacts(world);
+      costs[k].seconds += cost.seconds, costs[k].pairs += cost.pairs;
+    }
   }
+  const auto steps = static_cast<double>(state.iterations());
   state.counters["us_per_pair"] = 1e6 * seconds / pairs;
-  state.counters["pairs"] = pairs / static_cast<double>(state.iterations());
-  state.counters["touching"] = touching / static_cast<double>(state.iterations());
+  state.counters["pairs"] = pairs / steps;
+  state.counters["touching"] = touching / steps;
+  for (size_t k = 0; k < peers.size(); ++k) {
+    state.counters[std::string(peers[k]->name()) + "_ms"] = 1e3 * costs[k].seconds / steps;
+    state.counters[std::string(peers[k]->name()) + "_us_per_pair"] = 1e6 * costs[k].seconds / costs[k].pairs;
+    state.counters[std::string(peers[k]->name()) + "_pairs"] = costs[k].pairs / steps;
+  }
 }
 
 BENCHMARK_CAPTURE(narrowPhase, convexPile, convexPile)
@@ -122,4 +62,4 @@ BENCHMARK_CAPTURE(narrowPhase, junkyard, junkyard)
     ->Unit(benchmark::kMillisecond);
 
 }  // namespace
-}  // namespace pfx
+}  // namespace pfx_test

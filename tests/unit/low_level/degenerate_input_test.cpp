@@ -79,7 +79,7 @@ std::vector<Transform> badPoses() {
 TEST(DegenerateInput, posesThatAreNotNumbersTouchNothing) {
   const Zoo zoo;
   MeshContactScratch scratch;
-  std::vector<ContactManifold> found;
+  Vector<ContactManifold> found;
   for (const Transform& bad : badPoses())
     for (const Shape& a : zoo.shapes)
       for (const Shape& b : zoo.shapes) {
@@ -98,7 +98,7 @@ TEST(DegenerateInput, sizesOfZeroAndMissingMeshesGiveFiniteContactsOrNone) {
   for (const Shape& a : zoo.shapes)
     for (const Shape& b : zoo.shapes)
       for (const float y : {0.0f, 0.3f, 1e-20f, 1e20f}) {
-        std::vector<ContactManifold> found(1);
+        Vector<ContactManifold> found(1);
         const Transform pose{.position = Vec3(0.1f, y, 0.0f)};
         collideShapes({a, {}, b, pose, 0.1f}, found[0]);
         collideMesh({a, {}, b, pose, 0.1f}, scratch, found);

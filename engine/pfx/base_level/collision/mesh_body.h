@@ -1,10 +1,9 @@
 // The convex shape of a mesh contact, seen from the mesh.
 #pragma once
 
-#include <vector>
-
 #include "pfx/base_level/collision/convex_core.h"
 #include "pfx/base_level/collision/local_manifold.h"
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/base_level/shape/aabb.h"
 #include "pfx/base_level/shape/shape.h"
 
@@ -54,8 +53,8 @@ struct MeshBody {
 
 // Buffers that the vertices and planes of a body are written to.
 struct MeshBodyBuffers {
-  std::vector<Vec3>& vertices;
-  std::vector<Plane>& planes;
+  Vector<Vec3>& vertices;
+  Vector<Plane>& planes;
 };
 
 // The body of a convex geometry whose frame lies at `pose` in the frame of the mesh.

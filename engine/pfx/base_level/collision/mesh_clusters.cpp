@@ -13,7 +13,7 @@ constexpr float kDiagonal = 0.70710678f;
 constexpr float kOutward[MeshCluster::kDirections][2] = {{1, 0},  {kDiagonal, kDiagonal},   {0, 1},  {-kDiagonal, kDiagonal},
                                                          {-1, 0}, {-kDiagonal, -kDiagonal}, {0, -1}, {kDiagonal, -kDiagonal}};
 
-MeshCluster& clusterOf(std::vector<MeshCluster>& clusters, const Vec3& normal) {
+MeshCluster& clusterOf(Vector<MeshCluster>& clusters, const Vec3& normal) {
   for (MeshCluster& c : clusters) {
     if (c.normal.dot(normal) > kSameNormal) return c;
   }

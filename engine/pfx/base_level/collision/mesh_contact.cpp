@@ -41,7 +41,7 @@ struct PairFrames {
 };
 
 void writeManifold(const PairFrames& frames, const LargeMesh& mesh, const MeshCluster& cluster,
-                   std::span<const MeshContact> contacts, std::vector<ContactManifold>& out) {
+                   std::span<const MeshContact> contacts, Vector<ContactManifold>& out) {
   ContactManifold& m = out.emplace_back();
   const Transform& offset = frames.meshOffset();
   const Transform to_other = relative(frames.otherBody(), frames.meshBody());
@@ -63,7 +63,7 @@ void writeManifold(const PairFrames& frames, const LargeMesh& mesh, const MeshCl
 
 }  // namespace
 
-int collideMesh(const CollideInput& input, MeshContactScratch& scratch, std::vector<ContactManifold>& manifolds) {
+int collideMesh(const CollideInput& input, MeshContactScratch& scratch, Vector<ContactManifold>& manifolds) {
   const bool mesh_is_a = input.shape_a.type() == ShapeType::LargeMesh;
   if (mesh_is_a == (input.shape_b.type() == ShapeType::LargeMesh)) return 0;
   if (isMissing(input.shape_a.geometry) || isMissing(input.shape_b.geometry)) return 0;

@@ -13,10 +13,10 @@
 #pragma once
 
 #include <cstdint>
-#include <vector>
 
 #include "pfx/base_level/collision/local_manifold.h"
 #include "pfx/base_level/collision/pair_table.h"
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/base_level/shape/large_mesh.h"
 #include "pfx/base_level/shape/polytope.h"
 
@@ -44,15 +44,15 @@ struct MeshCluster {
 
 // Buffers that the search fills again and again; nothing is allocated once they have grown.
 struct MeshContactScratch {
-  std::vector<MeshCluster> clusters;
-  std::vector<Vec3> vertices;         // of the body, mesh frame
-  std::vector<Plane> planes;          // of the body, mesh frame
-  std::vector<LocalContact> parts;    // of compounds, frame of body A
+  Vector<MeshCluster> clusters;
+  Vector<Vec3> vertices;         // of the body, mesh frame
+  Vector<Plane> planes;          // of the body, mesh frame
+  Vector<LocalContact> parts;    // of compounds, frame of body A
 };
 
 // Appends the manifolds of a pair of which one shape is a large mesh and the other is convex: normals in world axes from
 // A to B, points as collideShapes() gives them, with triangle and barycentric coordinates. Returns how many it
 // appended; zero also when neither or both shapes are meshes, one is missing, or a pose is not finite. `input.cache` is not used.
-int collideMesh(const CollideInput& input, MeshContactScratch& scratch, std::vector<ContactManifold>& manifolds);
+int collideMesh(const CollideInput& input, MeshContactScratch& scratch, Vector<ContactManifold>& manifolds);
 
 }  // namespace pfx

@@ -1,10 +1,9 @@
 // Contacts of a convex body with one facet of a mesh.
 #pragma once
 
-#include <vector>
-
 #include "pfx/base_level/collision/mesh_body.h"
 #include "pfx/base_level/collision/mesh_contact.h"
+#include "pfx/base_level/memory/containers.h"
 
 namespace pfx {
 
@@ -12,7 +11,7 @@ struct FacetContext {
   const LargeMesh& mesh;
   const MeshBody& body;
   float margin;  // m
-  std::vector<MeshCluster>& clusters;
+  Vector<MeshCluster>& clusters;
 };
 
 // Adds what the facet contributes to the clusters.

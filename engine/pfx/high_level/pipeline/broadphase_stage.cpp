@@ -28,7 +28,7 @@ BodyReach reachOf(const World::Impl& w, uint32_t i) {
 }
 
 // Writes the proxies of `bodies`, with bounds that hold what they may touch in the step.
-void makeProxies(World::Impl& w, std::span<const uint32_t> bodies, std::vector<BroadphaseProxy>& proxies) {
+void makeProxies(World::Impl& w, std::span<const uint32_t> bodies, Vector<BroadphaseProxy>& proxies) {
   proxies.resize(bodies.size());
   w.reach.resize(w.store.states.size());
   const WorldBox box{w.def.center, w.def.extent};
@@ -38,7 +38,8 @@ void makeProxies(World::Impl& w, std::span<const uint32_t> bodies, std::vector<B
       const BodyReach reach = reachOf(w, i);
       w.reach[i] = reach.contacts;
       const RigidState& s = w.store.states[i];
-      updateProxy(s, w.store.collidables[i], box, reach.margin, proxies[k]);
+      if (updateProxy(s, w.store.collidables[i], box, reach.margin, proxies[k]) == Error::OutOfWorld)
+        proxies[k].filter_self = proxies[k].filter_target = 0;
       if (!moves(s)) continue;
       // The whole way of the step, so that fast bodies find what they could pass through.
       const Vec3 way = w.dt * s.linear_velocity;

@@ -133,7 +133,7 @@ void reportTouches(World::Impl& w) {
 }
 
 // Bodies that exist, each once, ascending.
-void takeOver(World::Impl& w, std::vector<BodyId>& from, std::vector<BodyId>& to) {
+void takeOver(World::Impl& w, Vector<BodyId>& from, Vector<BodyId>& to) {
   to.swap(from);
   from.clear();
   std::erase_if(to, [&](BodyId id) { return !w.store.isValid(id); });

@@ -10,7 +10,7 @@ namespace pfx {
 namespace {
 
 constexpr float kMostSoftLoad = 128.0f;
-constexpr size_t kMostDirectJoints = 500;  // of a world, before light components make do with soft rows
+constexpr size_t kMostDirectJoints = 500;
 constexpr uint8_t kStaysSoft = 30;  // steps since a contact
 
 bool isAwake(const RigidState& s) { return isDynamic(s.motion_type) && !s.asleep; }
@@ -70,8 +70,7 @@ void assignSolver(World::Impl& w, JointComponent& c) {
   // turns to stop what hangs on it, the impulses that pile up meanwhile take as many to go away again, and throw the whole
   // component. Soft rows in the same sweep as the contacts do not.
   const bool with_contacts = stepsSinceTouch(w, c, touched) < kStaysSoft;
-  const bool in_crowd = w.joint_constraints.size() > kMostDirectJoints;
-  c.is_soft = !c.is_direct || ((with_contacts || in_crowd) && maySoften(w, c));
+  c.is_soft = !c.is_direct || ((with_contacts || stage::isJointCrowd(w)) && maySoften(w, c));
   if (!c.is_soft && !touched) {
     w.free_components.push_back(&c);
     return;
@@ -102,6 +101,8 @@ void countGears(World::Impl& w) {
   for (const JointComponent* c : w.joint_step.components())
     if (c->is_soft && c->has_gears) countTurns(w, *c);
 }
+
+bool isJointCrowd(const World::Impl& w) { return w.joint_constraints.size() > kMostDirectJoints; }
 
 void gatherJoints(World::Impl& w) {
   listConstraints(w);

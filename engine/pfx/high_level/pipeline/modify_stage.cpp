@@ -92,7 +92,7 @@ void keepModifiedImpulses(World::Impl& w) {
   }
 }
 
-void dropApart(World::Impl& w, std::vector<Pair>& pairs) {
+void dropApart(World::Impl& w, Vector<Pair>& pairs) {
   for (std::span<const uint64_t> apart : {w.joint_store.keptApart(), w.apart.keys()}) {
     if (apart.empty()) continue;
     std::erase_if(pairs, [&](const Pair& p) {

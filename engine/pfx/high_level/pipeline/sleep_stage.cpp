@@ -21,7 +21,7 @@ void World::Impl::wake(uint32_t body) {
     i = next_sleeper[i];
   } while (i != body);
   active_changed = true;
-  counts_are_current = false;
+  forgetCounts();
   has_woken = true;
 }
 
@@ -58,9 +58,8 @@ void World::Impl::revivePairs() {
     contacts.remove(p.contact_id);
     return true;
   });
-  const auto middle = static_cast<std::ptrdiff_t>(pairs.size());
   pairs.insert(pairs.end(), next_pairs.begin(), next_pairs.end());
-  std::inplace_merge(pairs.begin(), pairs.begin() + middle, pairs.end(), by_key);
+  std::sort(pairs.begin(), pairs.end(), by_key);  // keys are unique; a merge in place would allocate
 }
 
 namespace stage {
@@ -80,14 +79,12 @@ void layDown(World::Impl& w, std::span<const uint32_t> bodies) {
 
 // Sets the pairs aside that no body which moves is part of.
 void setPairsAside(World::Impl& w) {
-  const auto old_size = static_cast<std::ptrdiff_t>(w.sleeping_pairs.size());
   std::erase_if(w.pairs, [&](const Pair& p) {
     if (moves(w.store.states[p.body_a]) || moves(w.store.states[p.body_b])) return false;
     w.sleeping_pairs.push_back(p);
     return true;
   });
-  std::inplace_merge(w.sleeping_pairs.begin(), w.sleeping_pairs.begin() + old_size, w.sleeping_pairs.end(),
-                     [](const Pair& a, const Pair& b) { return a.key() < b.key(); });
+  std::ranges::sort(w.sleeping_pairs, {}, &Pair::key);
 }
 
 }  // namespace

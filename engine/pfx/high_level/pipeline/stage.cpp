@@ -19,7 +19,8 @@ bool hasJoints(const World::Impl& w) { return w.joint_store.count() > 0; }
 // A world that remembers nothing keeps to the plain solver, unless it is told otherwise.
 bool mayNeedNewton(const World::Impl& w) {
   if (!hasContacts(w) || w.def.contact_solver == ContactSolver::Soft) return false;
-  return w.def.contact_solver == ContactSolver::Newton || (w.any_strained && w.def.pipeline != Pipeline::Simple);
+  if (w.def.contact_solver == ContactSolver::Newton) return true;
+  return (w.any_strained || (!w.joint_step.empty() && !stage::isJointCrowd(w))) && w.def.pipeline != Pipeline::Simple;
 }
 bool hasNewtonIslands(const World::Impl& w) { return w.num_newton_islands > 0; }
 bool hasFreeComponents(const World::Impl& w) { return !w.free_components.empty(); }

@@ -1,6 +1,7 @@
 // The stages of a step, each a function over what the world holds.
 #pragma once
 
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/high_level/world/world.h"
 #include "pfx/low_level/solver/joint_components.h"
 
@@ -35,11 +36,14 @@ void reportEvents(World::Impl& world);       // touches that began and ended, bo
 void keepModifiedImpulses(World::Impl& world);  // of changed manifolds, for the next step
 
 // Parts of other stages.
-void dropApart(World::Impl& world, std::vector<Pair>& pairs);  // pairs that may not collide; ascending
+void dropApart(World::Impl& world, Vector<Pair>& pairs);  // pairs that may not collide; ascending
 void modifyContacts(World::Impl& world);                       // lets the application change constraints
 
 // Motion of a body under outer forces, in sub-steps of h seconds.
 BodyMotion makeMotion(const World::Impl& world, uint32_t body, float h);
+
+// Whether the world has so many joints that they make do with the cheapest solver.
+bool isJointCrowd(const World::Impl& world);
 
 // Fills in the bodies of a component for a step.
 void beginComponent(World::Impl& world, JointComponent& component, const DirectStepParams& params);

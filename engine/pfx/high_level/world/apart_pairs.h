@@ -3,7 +3,8 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
+
+#include "pfx/base_level/memory/containers.h"
 
 namespace pfx {
 
@@ -15,10 +16,10 @@ class ApartPairs {
   void forgetBody(uint32_t body);
 
   std::span<const uint64_t> keys() const { return keys_; }  // Pair::key(), ascending
-  void assign(std::vector<uint64_t> keys) { keys_ = std::move(keys); }
+  void assign(Vector<uint64_t> keys) { keys_ = std::move(keys); }
 
  private:
-  std::vector<uint64_t> keys_;
+  Vector<uint64_t> keys_;
 };
 
 }  // namespace pfx

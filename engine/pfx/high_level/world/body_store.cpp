@@ -22,8 +22,8 @@ void requireNotNegative(const BodyDef& def, float x, const char* field) {
     reject(def, std::string(field) + " = " + std::to_string(x) + ", must be >= 0");
 }
 
-void check(const std::string& name, const Surface& s) {
-  const auto fails = [&](const char* what) { throw std::invalid_argument("body \"" + name + "\": " + what); };
+void check(std::string_view name, const Surface& s) {
+  const auto fails = [&](const char* what) { throw std::invalid_argument("body \"" + std::string(name) + "\": " + what); };
   if (!s.velocity.allFinite()) fails("surface velocity is not finite");
   if (!(s.torsional_resistance >= 0.0f) || !std::isfinite(s.torsional_resistance)) fails("torsional resistance must be >= 0");
 }
@@ -85,7 +85,7 @@ BodyId BodyStore::add(const BodyDef& def) {
   const uint32_t index = reuse ? free_slots.back() : static_cast<uint32_t>(states.size());
   Collidable collidable;
   if (!reuse) shapes.emplace_back();
-  shapes[index] = def.shapes;
+  shapes[index].assign(def.shapes.begin(), def.shapes.end());
   collidable.external = shapes[index];
   if (const Error e = collidable.finish(); e != Error::Ok) reject(def, std::string("shape: ") + toString(e));
   attachShapes(index, collidable);
@@ -113,7 +113,7 @@ BodyId BodyStore::add(const BodyDef& def) {
 
 void BodyStore::setShapes(uint32_t index, std::span<const Shape> new_shapes) {
   const auto reject = [&](const std::string& what) {
-    throw std::invalid_argument("body \"" + names[index] + "\": " + what);
+    throw std::invalid_argument("body \"" + std::string(names[index]) + "\": " + what);
   };
   if (new_shapes.empty()) reject("has no shape");
   Collidable collidable;
@@ -137,7 +137,7 @@ void BodyStore::setSurface(uint32_t index, const Surface& surface) {
 
 void BodyStore::attachShapes(uint32_t index, Collidable& collidable) {
   if (shape_trees.size() <= index) shape_trees.resize(index + 1);
-  const std::vector<Shape>& all = shapes[index];
+  const Vector<Shape>& all = shapes[index];
   const bool many = all.size() > kShapesWithoutTree;
   shape_trees[index] = many ? makeShapeTree(all) : DynamicTree();
   collidable.inline_shape = all.front();

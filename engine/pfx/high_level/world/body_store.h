@@ -1,11 +1,10 @@
 // The bodies of a world: parallel arrays by body index, with handles that notice removal.
 #pragma once
 
-#include <deque>
 #include <span>
 #include <string>
-#include <vector>
 
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/base_level/rigid_body/rotation_update.h"
 #include "pfx/high_level/world/world.h"
 #include "pfx/low_level/broadphase/dynamic_tree.h"
@@ -13,18 +12,18 @@
 namespace pfx {
 
 struct BodyStore {
-  std::vector<RigidState> states;
-  std::vector<RigidBody> bodies;
-  std::vector<Collidable> collidables;
-  std::vector<Inertia> inertias;
-  std::vector<float> size;    // m, smallest half extent: the length that contact margins are measured by
-  std::vector<float> radius;  // m, about the centre of mass
-  std::vector<std::string> names;
-  std::vector<Surface> surfaces;  // by body, up to the last one that has any
-  std::vector<uint32_t> generations;  // odd while the body exists
-  std::vector<uint32_t> free_slots;
-  std::deque<std::vector<Shape>> shapes;  // by body; addresses stay, collidables point here
-  std::deque<DynamicTree> shape_trees;    // by body; empty for bodies of few shapes
+  Vector<RigidState> states;
+  Vector<RigidBody> bodies;
+  Vector<Collidable> collidables;
+  Vector<Inertia> inertias;
+  Vector<float> size;    // m, smallest half extent: the length that contact margins are measured by
+  Vector<float> radius;  // m, about the centre of mass
+  Vector<String> names;
+  Vector<Surface> surfaces;  // by body, up to the last one that has any
+  Vector<uint32_t> generations;  // odd while the body exists
+  Vector<uint32_t> free_slots;
+  Deque<Vector<Shape>> shapes;  // by body; addresses stay, collidables point here
+  Deque<DynamicTree> shape_trees;    // by body; empty for bodies of few shapes
 
   // Throws std::invalid_argument naming the body and the field.
   BodyId add(const BodyDef& def);

@@ -1,9 +1,8 @@
 // Events of a world while they are gathered. Nothing here is touched in worlds that do not report events.
 #pragma once
 
-#include <vector>
-
 #include "pfx/base_level/collision/pair.h"
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/high_level/world/events.h"
 
 namespace pfx {
@@ -24,13 +23,13 @@ struct Approach {
 };
 
 struct EventStore {
-  std::vector<TouchingPair> touching, next_touching;  // by key
-  std::vector<Approach> approaches;                   // by key
-  std::vector<TouchEvent> begin, end;
-  std::vector<HitEvent> hits;
-  std::vector<TriggerEvent> enter, leave;
-  std::vector<BodyId> fell_asleep, woke;
-  std::vector<BodyId> next_fell_asleep, next_woke;  // since the last report
+  Vector<TouchingPair> touching, next_touching;  // by key
+  Vector<Approach> approaches;                   // by key
+  Vector<TouchEvent> begin, end;
+  Vector<HitEvent> hits;
+  Vector<TriggerEvent> enter, leave;
+  Vector<BodyId> fell_asleep, woke;
+  Vector<BodyId> next_fell_asleep, next_woke;  // since the last report
 };
 
 }  // namespace pfx

@@ -3,20 +3,20 @@
 
 #include <span>
 #include <string>
-#include <vector>
 
 #include "pfx/base_level/collision/pair.h"
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/high_level/world/joint_def.h"
 
 namespace pfx {
 
 struct JointStore {
-  std::vector<Joint> joints;
-  std::vector<JointLink> links;
-  std::vector<std::string> names;
-  std::vector<float> break_force, break_torque;
-  std::vector<uint32_t> generations;  // odd while the joint exists
-  std::vector<uint32_t> free_slots;
+  Vector<Joint> joints;
+  Vector<JointLink> links;
+  Vector<String> names;
+  Vector<float> break_force, break_torque;
+  Vector<uint32_t> generations;  // odd while the joint exists
+  Vector<uint32_t> free_slots;
 
   // Throws std::invalid_argument naming the joint. The bodies exist.
   JointId add(const JointDef& def, const Joint& joint);
@@ -30,7 +30,7 @@ struct JointStore {
   std::span<const uint64_t> keptApart();
 
  private:
-  std::vector<uint64_t> kept_apart_;
+  Vector<uint64_t> kept_apart_;
   bool changed_ = true;
 };
 

@@ -11,18 +11,27 @@
 namespace pfx {
 namespace {
 
-// Whether the projection of p onto the plane of a triangle lies in it.
+// How far outside of a triangle the projection of p onto its plane lies (m); 0 inside.
+float outsideBy(const Vec3& p, const std::array<Vec3, 3>& v, const Vec3& normal) {
+  float most = 0.0f;
+  for (int k = 0; k < 3; ++k) {
+    const Vec3 edge = v[(k + 1) % 3] - v[k];
+    most = std::max(most, -edge.cross(p - v[k]).dot(normal) / edge.norm());
+  }
+  return most;
+}
+
+// Whether p lies over (or below) a triangle. Over an edge where the surface bends, the columns on its triangles leave a
+// wedge free that belongs to neither; they are taken to widen by half of their height.
 bool liesOver(const Vec3& p, const std::array<Vec3, 3>& v, const Vec3& normal) {
-  for (int k = 0; k < 3; ++k)
-    if ((v[(k + 1) % 3] - v[k]).cross(p - v[k]).dot(normal) < 0.0f) return false;
-  return true;
+  return outsideBy(p, v, normal) <= 0.5f * std::abs(normal.dot(p - v[0]));
 }
 
 Vec3 unitNormal(const std::array<Vec3, 3>& v) { return (v[1] - v[0]).cross(v[2] - v[0]).normalized(); }
 
 // Bodies that wear the mesh. A mesh in a compound has no facets of its own in contacts.
-std::vector<uint32_t> wearersOf(const World::Impl& w, const LargeMesh* mesh) {
-  std::vector<uint32_t> out;
+Vector<uint32_t> wearersOf(const World::Impl& w, const LargeMesh* mesh) {
+  Vector<uint32_t> out;
   for (uint32_t i = 0; i < w.store.states.size(); ++i) {
     if (!w.store.exists(i)) continue;
     const auto shapes = w.store.collidables[i].shapes();
@@ -32,7 +41,7 @@ std::vector<uint32_t> wearersOf(const World::Impl& w, const LargeMesh* mesh) {
     });
     if (!wears) continue;
     if (shapes.size() != 1 || isDynamic(w.store.states[i].motion_type))
-      throw std::invalid_argument("world: body \"" + w.store.names[i] + "\" is a compound or dynamic; its mesh is rigid");
+      throw std::invalid_argument("world: body \"" + std::string(w.store.names[i]) + "\" is a compound or dynamic; its mesh is rigid");
     out.push_back(i);
   }
   return out;
@@ -71,8 +80,8 @@ void liftBodies(World::Impl& w, uint32_t wearer, const MeshMotion& motion) {
   const Transform pose = meshPose(w, wearer);
   const RigidState& surface = w.store.states[wearer];
   const Aabb swept = shapeAabb(&mesh, pose).grown(motion.farthest);
-  std::vector<Vec3> vertices;
-  std::vector<Plane> planes;
+  Vector<Vec3> vertices;
+  Vector<Plane> planes;
   for (uint32_t i = 0; i < w.store.states.size(); ++i) {
     RigidState& s = w.store.states[i];
     const Collidable& c = w.store.collidables[i];
@@ -108,8 +117,8 @@ Vec3 onFacet(std::span<const Vec3> values, const std::array<uint32_t, 3>& i, con
   return values[i[0]] + st.x() * (values[i[1]] - values[i[0]]) + st.y() * (values[i[2]] - values[i[0]]);
 }
 
-std::vector<Vec3> verticesOf(const LargeMesh& mesh, std::span<const Vec3> others) {
-  std::vector<Vec3> out(others.begin(), others.end());
+Vector<Vec3> verticesOf(const LargeMesh& mesh, std::span<const Vec3> others) {
+  Vector<Vec3> out(others.begin(), others.end());
   for (uint32_t f = 0; f < mesh.numFacets(); ++f) {
     const auto corners = facetVertices(mesh, f);
     const auto sources = facetSources(mesh, f);
@@ -190,10 +199,11 @@ Vec3 World::Impl::surfaceVelocity(uint32_t body, const ContactManifold& m, const
 
 void World::deformMesh(const LargeMesh* mesh, std::span<const Vec3> vertices, float dt) {
   Impl& w = *impl_;
+  const MemoryScope scope(w.memory);
   const auto found = std::find_if(w.large_meshes.begin(), w.large_meshes.end(), [&](const auto& m) { return &m == mesh; });
   if (found == w.large_meshes.end()) throw std::invalid_argument("world: the mesh is not kept by the world");
   if (!(dt >= 0.0f && dt < 1e30f)) throw std::invalid_argument("world: dt of a deformation must be >= 0");
-  const std::vector<uint32_t> wearers = wearersOf(w, mesh);
+  const Vector<uint32_t> wearers = wearersOf(w, mesh);
   const auto index = static_cast<uint32_t>(found - w.large_meshes.begin());
   if (vertices.size() != mesh->num_source_vertices || mesh->numFacets() == 0)
     throw std::invalid_argument("world: a deformation has " + std::to_string(vertices.size()) + " vertices, the mesh " +

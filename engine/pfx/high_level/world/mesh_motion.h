@@ -2,10 +2,10 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "pfx/base_level/collision/contact_manifold.h"
 #include "pfx/base_level/collision/mesh_body.h"
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/base_level/shape/large_mesh.h"
 #include "pfx/base_level/shape/shape.h"
 
@@ -14,12 +14,12 @@ namespace pfx {
 // A mesh of a world that was deformed at least once.
 struct MeshMotion {
   uint32_t mesh = 0;           // in World::Impl::large_meshes
-  std::vector<Vec3> now = {};  // m, mesh frame, by vertex that the mesh was built from
+  Vector<Vec3> now = {};  // m, mesh frame, by vertex that the mesh was built from
   bool is_moving = false;      // the next step is to know of the velocities
   float fastest = 0.0f;        // m/s
   float farthest = 0.0f;       // m, of the last deformation
-  std::vector<Vec3> before = {};    // m, likewise
-  std::vector<Vec3> velocity = {};  // m/s
+  Vector<Vec3> before = {};    // m, likewise
+  Vector<Vec3> velocity = {};  // m/s
 };
 
 // What the solver needs to know of a contact on such a mesh.
@@ -35,7 +35,7 @@ std::array<uint32_t, 3> facetSources(const LargeMesh& mesh, uint32_t facet);
 Vec3 onFacet(std::span<const Vec3> values, const std::array<uint32_t, 3>& sources, const Vec2& barycentric);
 
 // Where the vertices are that a mesh was built from; those without a facet are taken from `others`.
-std::vector<Vec3> verticesOf(const LargeMesh& mesh, std::span<const Vec3> others);
+Vector<Vec3> verticesOf(const LargeMesh& mesh, std::span<const Vec3> others);
 
 // Starts a deformation to `vertices` within dt seconds; 0: a jump without velocity.
 void beginMotion(MeshMotion& motion, std::span<const Vec3> vertices, float dt);

@@ -2,16 +2,16 @@
 #pragma once
 
 #include <memory>
-#include <vector>
 
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/high_level/particles/particle_system.h"
 
 namespace pfx {
 
 struct ParticleStore {
-  std::vector<std::unique_ptr<ParticleSystem>> systems;  // null when removed
-  std::vector<uint32_t> generations;                     // odd while the system exists
-  std::vector<Transform> start_poses;                    // by body, before the step; while there is a system
+  Vector<std::unique_ptr<ParticleSystem>> systems;  // null when removed
+  Vector<uint32_t> generations;                     // odd while the system exists
+  Vector<Transform> start_poses;                    // by body, before the step; while there is a system
 
   bool empty() const { return count == 0; }
   uint32_t count = 0;  // of systems that exist

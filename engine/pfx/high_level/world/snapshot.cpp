@@ -34,8 +34,8 @@ struct RowMemory {
 
 struct Content {
   World::Impl& world;
-  std::vector<Leaf> leaves;
-  std::vector<RowMemory> rows;  // in the order of components, joints and rows
+  Vector<Leaf> leaves;
+  Vector<RowMemory> rows;  // in the order of components, joints and rows
 };
 
 template <class Fn>
@@ -84,7 +84,7 @@ void ioBodies(A& a, Content& c) {
   io(a, s.generations), io(a, s.free_slots);
   ioList(a, s.collidables, [](A& archive, Collidable& k) { io(archive, k.center), io(archive, k.half_extent); });
   KeptMeshes meshes{c.world.convex_meshes, c.world.large_meshes};
-  ioList(a, s.shapes, [&](A& archive, std::vector<Shape>& shapes) {
+  ioList(a, s.shapes, [&](A& archive, Vector<Shape>& shapes) {
     ioList(archive, shapes, [&](A& inner, Shape& shape) { ioShape(inner, shape, meshes); });
   });
   io(a, c.world.keyframes), io(a, c.world.changed_bodies), io(a, c.world.reach);
@@ -96,7 +96,7 @@ void ioJoints(A& a, Content& c) {
   JointStore& s = c.world.joint_store;
   io(a, s.joints), io(a, s.links), io(a, s.names), io(a, s.break_force), io(a, s.break_torque);
   io(a, s.generations), io(a, s.free_slots), io(a, c.world.broken_joints);
-  std::vector<uint64_t> apart(c.world.apart.keys().begin(), c.world.apart.keys().end());
+  Vector<uint64_t> apart(c.world.apart.keys().begin(), c.world.apart.keys().end());
   io(a, apart);
   if constexpr (A::kReads) c.world.apart.assign(std::move(apart));
 }
@@ -230,7 +230,7 @@ bool areBelow(std::span<const uint32_t> indices, size_t count) {
 
 // Sleeping bodies form rings: each is the next one of exactly one other.
 bool areRings(const World::Impl& w) {
-  std::vector<uint8_t> reached(w.store.states.size());
+  Vector<uint8_t> reached(w.store.states.size());
   for (uint32_t i = 0; i < w.store.states.size(); ++i) {
     if (!w.store.states[i].asleep) continue;
     if (i >= w.next_sleeper.size()) return false;
@@ -283,8 +283,8 @@ void checkContacts(const Reader& r, const World::Impl& w, std::span<const Leaf> 
 
 // What of a snapshot belongs into stages that a restored world makes anew.
 struct Memory {
-  std::vector<Leaf> leaves;
-  std::vector<RowMemory> rows;
+  Vector<Leaf> leaves;
+  Vector<RowMemory> rows;
 };
 
 // A world without threads, for reading into.
@@ -306,8 +306,8 @@ std::unique_ptr<World::Impl> readAll(std::span<const std::byte> in, Memory& memo
 
 // Meshes keep their addresses, since others may hold them. Shapes of `from` are led to those of `to`.
 template <class Mesh>
-void moveMeshes(std::deque<Mesh>& from, std::deque<Mesh>& to, std::deque<std::vector<Shape>>& shapes) {
-  std::vector<std::pair<const Mesh*, const Mesh*>> moved;
+void moveMeshes(Deque<Mesh>& from, Deque<Mesh>& to, Deque<Vector<Shape>>& shapes) {
+  Vector<std::pair<const Mesh*, const Mesh*>> moved;
   for (size_t i = 0; i < from.size(); ++i) {
     if (i == to.size()) to.emplace_back();
     to[i] = std::move(from[i]);
@@ -321,7 +321,7 @@ void moveMeshes(std::deque<Mesh>& from, std::deque<Mesh>& to, std::deque<std::ve
 }
 
 void restTree(World::Impl& w, std::span<const Leaf> leaves) {
-  std::vector<BroadphaseProxy> proxies;
+  Vector<BroadphaseProxy> proxies;
   for (const Leaf& leaf : leaves) {
     const RigidState& s = w.store.states[leaf.body];
     proxies.push_back({.bounds = leaf.bounds,
@@ -364,7 +364,7 @@ void takeOver(World::Impl& w, World::Impl& from, const Memory& memory) {
   moveMeshes(from.large_meshes, w.large_meshes, from.store.shapes);
   w.store = std::move(from.store);
   for (uint32_t i = 0; i < w.store.states.size(); ++i) {
-    const std::vector<Shape>& shapes = w.store.shapes[i];
+    const Vector<Shape>& shapes = w.store.shapes[i];
     if (shapes.empty() || !w.store.exists(i)) continue;
     w.store.attachShapes(i, w.store.collidables[i]);
   }
@@ -397,7 +397,7 @@ void takeOver(World::Impl& w, World::Impl& from, const Memory& memory) {
   w.island_link_pairs.clear();
   w.island_pairs.clear();
   w.tree_is_current = false;
-  w.counts_are_current = false;
+  w.forgetCounts();
   w.modified.clear();
   w.times.clear();
   rememberRows(w, memory.rows);
@@ -431,7 +431,7 @@ void requireKept(const World::Impl& w) {
       const auto* convex = std::get_if<const ConvexMesh*>(&s.geometry);
       const auto* large = std::get_if<const LargeMesh*>(&s.geometry);
       if ((convex && !is_kept(*convex, w.convex_meshes)) || (large && !is_kept(*large, w.large_meshes)))
-        failWhole("body \"" + w.store.names[i] + "\" has a mesh that the world does not keep");
+        failWhole("body \"" + std::string(w.store.names[i]) + "\" has a mesh that the world does not keep");
     }
   }
 }
@@ -465,6 +465,7 @@ size_t World::snapshot(std::span<std::byte> out) const {
 }
 
 void World::restore(std::span<const std::byte> in) {
+  const MemoryScope scope(impl_->memory);
   Memory memory;
   const std::unique_ptr<Impl> read = readAll(in, memory);
   takeOver(*impl_, *read, memory);

@@ -1,6 +1,7 @@
 // Snapshots: the fields of what only a world knows; records.h and shape_records.h have the others.
 #pragma once
 
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/high_level/world/snapshot_archive.h"
 #include "pfx/high_level/world/world_impl.h"
 #include "pfx/util/serialize/records.h"
@@ -49,8 +50,8 @@ void io(A& a, TouchingPair& t) {
 
 // Meshes of a world by number.
 struct KeptMeshes {
-  std::deque<ConvexMesh>& convex;
-  std::deque<LargeMesh>& large;
+  Deque<ConvexMesh>& convex;
+  Deque<LargeMesh>& large;
 
   uint32_t numberOf(const ConvexMesh* mesh) const { return numberIn(convex, mesh); }
   uint32_t numberOf(const LargeMesh* mesh) const { return numberIn(large, mesh); }
@@ -59,12 +60,12 @@ struct KeptMeshes {
 
  private:
   template <class Mesh>
-  static uint32_t numberIn(const std::deque<Mesh>& kept, const Mesh* mesh) {
+  static uint32_t numberIn(const Deque<Mesh>& kept, const Mesh* mesh) {
     const auto it = std::ranges::find_if(kept, [&](const Mesh& m) { return &m == mesh; });
     return it == kept.end() ? kNoMesh : static_cast<uint32_t>(it - kept.begin());
   }
   template <class Mesh>
-  static bool findIn(const std::deque<Mesh>& kept, uint32_t number, const Mesh*& mesh) {
+  static bool findIn(const Deque<Mesh>& kept, uint32_t number, const Mesh*& mesh) {
     if (number >= kept.size()) return false;
     mesh = &kept[number];
     return true;
@@ -115,9 +116,9 @@ void io(A& a, ParticleDef& d) {
 
 // A pair with its contact. The ids of contacts are given anew; nothing depends on them.
 template <class A>
-void ioPairs(A& a, std::vector<Pair>& pairs, ContactStore& contacts) {
+void ioPairs(A& a, Vector<Pair>& pairs, ContactStore& contacts) {
   constexpr size_t kMostManifolds = 1u << 15;  // of one pair
-  std::vector<ContactManifold> manifolds;
+  Vector<ContactManifold> manifolds;
   ioList(a, pairs, [&](A& archive, Pair& p) {
     io(archive, p.body_a), io(archive, p.body_b), io(archive, p.flags);
     if constexpr (A::kReads) {

@@ -36,7 +36,7 @@ void World::Impl::refreshActive() {
 void World::Impl::hasChanged(uint32_t body) {
   active_changed = true;
   tree_is_current = false;
-  counts_are_current = false;
+  forgetCounts();
   changed_bodies.push_back(body);
 }
 
@@ -68,21 +68,15 @@ void World::Impl::linkIslands() {
 }
 
 // The links of all islands, in the order in which the islands keep them, as indices of pairs.
-void World::Impl::listIslandPairs() {
+void World::Impl::listIslands() {
+  if (std::exchange(islands_are_current, true)) return;
+  const MemoryScope scope(memory);
+  linkIslands();
   island_pairs.clear();
   for (uint32_t k = 0; k < islands.size(); ++k)
     for (uint32_t link : islands.links(k))
       island_pairs.push_back(link < island_link_pairs.size() ? island_link_pairs[link] : 0);
 }
-
-World::World(const WorldDef& def) {
-  if (def.substeps < 1) throw std::invalid_argument("world: substeps must be >= 1");
-  if (!def.gravity.allFinite()) throw std::invalid_argument("world: gravity is not finite");
-  impl_ = std::make_unique<Impl>(def);
-}
-World::~World() = default;
-World::World(World&&) noexcept = default;
-World& World::operator=(World&&) noexcept = default;
 
 const WorldDef& World::def() const { return impl_->def; }
 
@@ -90,6 +84,7 @@ const ConvexMesh* World::keep(ConvexMesh mesh) { return &impl_->convex_meshes.em
 LargeMesh* World::keep(LargeMesh mesh) { return &impl_->large_meshes.emplace_back(std::move(mesh)); }
 
 BodyId World::addBody(const BodyDef& def) {
+  const MemoryScope scope(impl_->memory);
   const BodyId id = impl_->store.add(def);
   impl_->hasChanged(id.index);
   if (id.index < impl_->since_touch.size()) impl_->since_touch[id.index] = kLongSinceTouch;
@@ -98,6 +93,7 @@ BodyId World::addBody(const BodyDef& def) {
 
 void World::removeBody(BodyId id) {
   if (!isValid(id)) return;
+  const MemoryScope scope(impl_->memory);
   impl_->wake(id.index);
   impl_->wakeNeighbours(id.index);
   impl_->forgetPairs(id.index);
@@ -112,6 +108,7 @@ void World::removeBody(BodyId id) {
 }
 
 void World::setShapes(BodyId id, std::span<const Shape> shapes) {
+  const MemoryScope scope(impl_->memory);
   state(id);
   impl_->store.setShapes(id.index, shapes);
   impl_->forgetPairs(id.index);
@@ -125,11 +122,13 @@ void World::step(float dt) {
   if (!(dt >= 0.0f) || !std::isfinite(dt))
     throw std::invalid_argument("world: dt = " + std::to_string(dt) + " s, must be >= 0");
   if (dt == 0.0f) return;
+  const MemoryScope scope(impl_->memory);
   impl_->dt = dt;
   impl_->rescaleImpulses(dt / static_cast<float>(impl_->def.substeps));
-  impl_->counts_are_current = false;
   runStages(*impl_);
+  impl_->forgetCounts();
   ++impl_->step_count;
+  requireRoom();
 }
 
 uint64_t World::stepCount() const { return impl_->step_count; }
@@ -172,13 +171,14 @@ void World::moveKeyframe(BodyId id, const Transform& pose, float dt) {
 }
 
 JointId World::addJoint(const JointDef& def) {
+  const MemoryScope scope(impl_->memory);
   if (!isValid(def.body_a) || !isValid(def.body_b))
     throw std::invalid_argument("joint \"" + def.name + "\": a body does not exist");
   if (def.body_a == def.body_b) throw std::invalid_argument("joint \"" + def.name + "\": both bodies are the same");
   impl_->wake(def.body_a.index);
   impl_->wake(def.body_b.index);
   impl_->revivePairs();
-  impl_->counts_are_current = false;
+  impl_->forgetCounts();
   const auto states = impl_->store.states.begin();
   return impl_->joint_store.add(def, makeJoint(states[def.body_a.index], states[def.body_b.index], def.params));
 }
@@ -189,7 +189,7 @@ void World::removeJoint(JointId id) {
   impl_->wake(link.body_a);
   impl_->wake(link.body_b);
   impl_->revivePairs();
-  impl_->counts_are_current = false;
+  impl_->forgetCounts();
   impl_->joint_store.remove(id.index);
 }
 
@@ -256,6 +256,7 @@ JointError World::jointError(uint32_t index) const {
 }
 
 QueryScene World::Impl::queryScene() {
+  const MemoryScope scope(memory);
   refreshActive();
   if (!tree_is_current) stage::updateTree(*this);
   tree_is_current = true;
@@ -283,14 +284,16 @@ std::span<const ContactManifold> World::manifolds(const Pair& pair) const {
 }
 
 uint32_t World::numIslands() const {
-  impl_->linkIslands();
-  impl_->listIslandPairs();
+  impl_->listIslands();
   return impl_->islands.size();
 }
 
 IslandView World::island(uint32_t index) const {
+  impl_->listIslands();
   const auto bodies = impl_->islands.bodies(index);
-  const RigidState& first = impl_->store.states[bodies.front()];
+  const std::vector<RigidState>& states = impl_->store.states;
+  const auto restless = [&](uint32_t a, uint32_t b) { return states[a].sleep_count < states[b].sleep_count; };
+  const RigidState& least_rested = states[*std::min_element(bodies.begin(), bodies.end(), restless)];
   const auto links = impl_->islands.links(index);
   const auto first_joint = std::lower_bound(links.begin(), links.end(), impl_->island_link_pairs.size());
   const auto num_contacts = static_cast<size_t>(first_joint - links.begin());
@@ -298,8 +301,8 @@ IslandView World::island(uint32_t index) const {
   return {.bodies = bodies,
           .contacts = std::span(impl_->island_pairs).subspan(offset, num_contacts),
           .joints = static_cast<uint32_t>(links.size() - num_contacts),
-          .asleep = first.asleep,
-          .sleep_timer = static_cast<float>(first.sleep_count) * impl_->dt};
+          .asleep = least_rested.asleep,
+          .sleep_timer = static_cast<float>(least_rested.sleep_count) * impl_->dt};
 }
 
 WorldCounts World::counts() const {

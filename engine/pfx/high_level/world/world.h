@@ -49,7 +49,7 @@ struct WorldDef {
   uint32_t sleep_steps = 180;        // steps below sleep_velocity before an island sleeps
   bool report_events = false;        // World::events() has something to say
   float hit_speed = 1.0f;            // m/s, of approach, beyond which the begin of a contact is a hit
-  Vec3 center = Vec3::Zero();        // m, of the world box
+  Vec3 center = Vec3::Zero();        // m, of the world box; bodies that are wholly outside collide with nothing
   Vec3 extent = Vec3::Constant(500.0f);  // m, half extent of the world box
 };
 
@@ -116,10 +116,17 @@ struct WorldCounts {
 
 class World {
  public:
-  explicit World(const WorldDef& def = {});
+  // With a block (aligned to BlockMemory::kAlignment, outliving the world) everything that the world makes lies in it:
+  // bodies, joints, and the buffers of all stages. Meshes and particle systems bring memory of their own, and so do
+  // threads. Throws std::length_error for a block that cannot even hold an empty world.
+  explicit World(const WorldDef& def = {}, std::span<std::byte> block = {});
   ~World();
   World(World&&) noexcept;
   World& operator=(World&&) noexcept;
+
+  // Bytes of the block that a world needs which is built and stepped as this one was, on the heap or not: with one worker
+  // exactly, with more to what their scratch buffers differ by. A trial run tells how large to make a block.
+  size_t memoryBytes() const;
 
   const WorldDef& def() const;
 
@@ -127,6 +134,14 @@ class World {
   // than one sub-step.
   void setSolver(const SolverSettings& settings);
   SolverSettings solver() const;
+
+  // Takes effect in the next step. Wakes all bodies when it is another gravity than before. Throws std::invalid_argument
+  // for one that is not finite.
+  void setGravity(const Vec3& gravity);  // m/s^2
+
+  // Moves or resizes the world box from the next step on, and wakes all bodies when that changes it. Throws
+  // std::invalid_argument for a half extent that is not positive, or what is not finite.
+  void setBox(const Vec3& center, const Vec3& extent);  // m; half extent
 
   // Takes a mesh into the world's keeping, so that shapes may point at it for as long as the world lives.
   const ConvexMesh* keep(ConvexMesh mesh);
@@ -151,7 +166,9 @@ class World {
   void setShapes(BodyId id, std::span<const Shape> shapes);
   BodyId bodyId(uint32_t index) const;
 
-  // Advances by dt seconds (>= 0). Throws std::invalid_argument when dt is negative or not finite.
+  // Advances by dt seconds (>= 0). Throws std::invalid_argument when dt is negative or not finite, and std::length_error,
+  // with the bytes that are needed, when the block of the world is too small; the step is done nevertheless, with the rest
+  // on the heap.
   void step(float dt);
   uint64_t stepCount() const;
 
@@ -261,7 +278,11 @@ class World {
   struct Impl;  // the stages of high_level/pipeline work on it
 
  private:
-  std::unique_ptr<Impl> impl_;
+  struct Destroy {
+    void operator()(Impl* impl) const;
+  };
+  void requireRoom() const;  // throws std::length_error
+  std::unique_ptr<Impl, Destroy> impl_;
 };
 
 }  // namespace pfx

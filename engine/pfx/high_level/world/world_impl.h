@@ -1,8 +1,7 @@
 // What a world holds: the bodies, and the buffers that the stages hand to each other.
 #pragma once
 
-#include <deque>
-
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/base_level/shape/convex_mesh.h"
 #include "pfx/base_level/shape/large_mesh.h"
 #include "pfx/high_level/pipeline/stage.h"
@@ -35,9 +34,11 @@ struct BodyPose {
 // An island that the island solver takes.
 struct NewtonTask {
   NewtonIsland solver;
-  std::vector<uint32_t> bodies;  // indices of states, ascending, movable or not
-  std::vector<BodyMotion> motions;
-  std::vector<ContactConstraint> constraints;
+  Vector<uint32_t> bodies;  // indices of states, ascending, movable or not
+  Vector<BodyMotion> motions;
+  Vector<ContactConstraint> constraints;
+  Vector<JointConstraint> joints;
+  Vector<JointComponent*> components;  // of the joints
   bool is_solved = false;
 };
 
@@ -63,45 +64,47 @@ struct ModifiedContact {
 };
 
 struct World::Impl {
+  // In the memory that its thread names (block_memory.h).
   explicit Impl(const WorldDef& d) : def(d), tasks(d.workers) {}
 
+  BlockMemory* memory = currentMemory();
   WorldDef def;
   TaskManager tasks;
   BodyStore store;
-  std::deque<ConvexMesh> convex_meshes;  // kept for shapes that point at them
-  std::deque<LargeMesh> large_meshes;
+  Deque<ConvexMesh> convex_meshes;  // kept for shapes that point at them
+  Deque<LargeMesh> large_meshes;
   float dt = 0.0f;  // s, of the step under way
   float substep = 0.0f;  // s, in which the remembered impulses of contacts acted; 0: there are none
   uint64_t step_count = 0;
 
-  std::vector<uint32_t> active;  // awake dynamic bodies, ascending
-  std::vector<uint32_t> moving;  // these and the scripted bodies that move, ascending
+  Vector<uint32_t> active;  // awake dynamic bodies, ascending
+  Vector<uint32_t> moving;  // these and the scripted bodies that move, ascending
   uint32_t num_sleepers = 0;
   bool active_changed = true;  // a body was added, removed, changed its type, slept or woke
 
-  std::vector<BodyPose> keyframes;  // poses that Keyframe bodies were told
+  Vector<BodyPose> keyframes;  // poses that Keyframe bodies were told
 
   // Broad phase: the sweep for worlds that remember nothing, the trees for all others
-  std::vector<BroadphaseProxy> proxies;
-  std::vector<ContactReach> reach;  // by body
-  std::vector<uint32_t> all_bodies;
-  std::vector<uint32_t> changed_bodies;  // added, removed or moved from outside since the last step
+  Vector<BroadphaseProxy> proxies;
+  Vector<ContactReach> reach;  // by body
+  Vector<uint32_t> all_bodies;
+  Vector<uint32_t> changed_bodies;  // added, removed or moved from outside since the last step
   SweepBroadphase sweep;
   TreeBroadphase tree;
-  std::vector<Pair> pairs, next_pairs;  // with a body that moves; sorted by key
+  Vector<Pair> pairs, next_pairs;  // with a body that moves; sorted by key
 
   // Continuous collision, by body
-  std::vector<Transform> start_poses;
-  std::vector<Sweep> sweeps;  // by body, of those that moved in the step
-  std::vector<uint8_t> is_fast;
-  std::vector<Stop> stops;
-  std::vector<FastPair> fast_pairs;
-  std::vector<BodyPose> stopped_poses;
+  Vector<Transform> start_poses;
+  Vector<Sweep> sweeps;  // by body, of those that moved in the step
+  Vector<uint8_t> is_fast;
+  Vector<Stop> stops;
+  Vector<FastPair> fast_pairs;
+  Vector<BodyPose> stopped_poses;
   bool tree_is_current = false;  // the tree holds the bodies where they are now
 
   // Sleep
-  std::vector<uint32_t> next_sleeper;  // by body: the next one of its sleeping island, in a ring
-  std::vector<Pair> sleeping_pairs;    // set aside; sorted by key
+  Vector<uint32_t> next_sleeper;  // by body: the next one of its sleeping island, in a ring
+  Vector<Pair> sleeping_pairs;    // set aside; sorted by key
   bool has_woken = false;              // a body woke whose pairs are still set aside
 
   // Collision
@@ -110,54 +113,54 @@ struct World::Impl {
 
   // Islands, of awake bodies and of the pairs that touch
   Islands islands;
-  std::vector<Link> island_links;           // of contacts, then of joints
-  std::vector<uint32_t> island_link_pairs;  // index into pairs, by link
-  std::vector<uint32_t> island_pairs;       // of contacts, island by island, for IslandView
+  Vector<Link> island_links;           // of contacts, then of joints
+  Vector<uint32_t> island_link_pairs;  // index into pairs, by link
+  Vector<uint32_t> island_pairs;       // of contacts, island by island, for IslandView
 
   // Joints
   JointStore joint_store;
-  std::vector<JointConstraint> joint_constraints;
+  Vector<JointConstraint> joint_constraints;
   JointComponents joint_components;
-  std::vector<JointComponent*> free_components;  // awake, without contacts, solved alone
+  Vector<JointComponent*> free_components;  // awake, without contacts, solved alone
   JointStep joint_step;                          // the others
-  std::vector<uint8_t> jointed;                  // by body: part of an awake component
-  std::vector<uint8_t> since_touch;              // by body: steps since a contact touched its component, saturating
-  std::vector<JointId> broken_joints;            // in the last step
+  Vector<uint8_t> jointed;                  // by body: part of an awake component
+  Vector<uint8_t> since_touch;              // by body: steps since a contact touched its component, saturating
+  Vector<JointId> broken_joints;            // in the last step
 
   // Solver
-  std::vector<ContactConstraint> constraints;
-  std::vector<uint32_t> solver_index;  // by body; kNoSolverBody when it has none, as between steps
-  std::vector<uint32_t> solved;        // body of each solver body
-  std::vector<uint32_t> free_bodies;   // active bodies without a constraint
-  std::vector<SolverBody> solver_bodies;
-  std::vector<BodyMotion> motions;
-  std::vector<uint8_t> solver_dynamic;
+  Vector<ContactConstraint> constraints;
+  Vector<uint32_t> solver_index;  // by body; kNoSolverBody when it has none, as between steps
+  Vector<uint32_t> solved;        // body of each solver body
+  Vector<uint32_t> free_bodies;   // active bodies without a constraint
+  Vector<SolverBody> solver_bodies;
+  Vector<BodyMotion> motions;
+  Vector<uint8_t> solver_dynamic;
   SoftStep soft_step;
 
   // Islands that the island solver takes
   bool any_strained = false;       // a contact of this step is
   Islands contact_islands;         // of constraints and joints
-  std::deque<NewtonTask> newton_islands;
+  Deque<NewtonTask> newton_islands;
   uint32_t num_newton_islands = 0;  // in use
 
   // What the application says about contacts, and what it is told
   ApartPairs apart;
   PairFilter pair_filter;
   ContactModifier contact_modifier;
-  std::vector<ModifiedContact> modified;
+  Vector<ModifiedContact> modified;
   EventStore events;
 
   ParticleStore particle_store;
 
   // Meshes that were deformed
-  std::vector<MeshMotion> mesh_motions;
+  Vector<MeshMotion> mesh_motions;
   uint64_t num_deformations = 0;
-  std::vector<MovingSurface> surfaces;  // of this step, by solver body after those of bodies
+  Vector<MovingSurface> surfaces;  // of this step, by solver body after those of bodies
 
-  std::vector<StageTime> times;
+  Vector<StageTime> times;
   uint64_t stages_run = 0;  // a bit for each of the pipeline, since the world was made
   WorldCounts counts;
-  bool counts_are_current = false;
+  bool counts_are_current = false, islands_are_current = false;  // of what is told about the world
 
   bool solves(const Pair& pair) const;
   ContactStrain strainOf(const ContactConstraint& constraint) const;  // solver_a, solver_b are indices of states
@@ -171,7 +174,8 @@ struct World::Impl {
   void hasChanged(uint32_t body);      // from outside: it stands elsewhere, is new, or is gone
   QueryScene queryScene();             // for queries about the bodies as they are now
   void needSolverBody(uint32_t body);  // the solver will work on it
-  void listIslandPairs();
+  void listIslands();                  // with their pairs, for those who look at them
+  void forgetCounts() { counts_are_current = islands_are_current = false; }
   void forgetPairs(uint32_t body);     // with their contacts; those that last are found anew
   void wake(uint32_t body);            // and its whole island
   void wakeNeighbours(uint32_t body);  // everything that it touches

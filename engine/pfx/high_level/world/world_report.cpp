@@ -21,20 +21,44 @@ void World::setSolver(const SolverSettings& settings) {
   impl_->def.contact_solver = settings.contact_solver;
 }
 
+void World::setGravity(const Vec3& gravity) {
+  if (!gravity.allFinite()) throw std::invalid_argument("world: gravity is not finite");
+  if (gravity == impl_->def.gravity) return;
+  impl_->def.gravity = gravity;
+  for (uint32_t i = 0; i < impl_->store.states.size(); ++i) impl_->wake(i);
+  impl_->revivePairs();
+}
+
+// Resting bodies are looked at again as well, since pairs depend on who is inside.
+void World::setBox(const Vec3& center, const Vec3& extent) {
+  if (!center.allFinite() || !extent.allFinite() || !(extent.array() > 0.0f).all())
+    throw std::invalid_argument("world: the box must be finite and have a size");
+  if (center == impl_->def.center && extent == impl_->def.extent) return;
+  impl_->def.center = center;
+  impl_->def.extent = extent;
+  for (uint32_t i = 0; i < impl_->store.states.size(); ++i) {
+    if (!impl_->store.exists(i)) continue;
+    impl_->wake(i);
+    impl_->hasChanged(i);
+  }
+  impl_->revivePairs();
+}
+
 SolverSettings World::solver() const {
   return {impl_->def.substeps, impl_->def.joint_solver, impl_->def.contact_solver};
 }
 
 // The bodies of a solver's task include fixed ones, which are in no island.
 IslandSolvers World::islandSolvers(uint32_t index) const {
+  impl_->listIslands();
   const auto bodies = impl_->islands.bodies(index);
   IslandSolvers found;
   for (uint32_t i = 0; i < impl_->num_newton_islands; ++i)
     found.newton = found.newton || haveOneInCommon(bodies, impl_->newton_islands[i].bodies);
   for (const JointComponent& c : impl_->joint_components.components()) {
     if (!haveOneInCommon(bodies, c.bodies)) continue;
-    found.direct_joints = found.direct_joints || c.is_direct;
-    found.soft_joints = found.soft_joints || !c.is_direct;
+    found.direct_joints = found.direct_joints || !c.is_soft;
+    found.soft_joints = found.soft_joints || c.is_soft;
   }
   return found;
 }

@@ -15,7 +15,7 @@ void decomposePairs(std::span<const Pair> prev, std::span<const Pair> cur, PairC
       [&](const Pair& pair) { changes.removed.push_back(pair); });
 }
 
-void composePairs(std::span<const Pair> a, std::span<const Pair> b, std::vector<Pair>& out) {
+void composePairs(std::span<const Pair> a, std::span<const Pair> b, Vector<Pair>& out) {
   out.resize(a.size() + b.size());
   std::merge(a.begin(), a.end(), b.begin(), b.end(), out.begin(),
              [](const Pair& x, const Pair& y) { return x.key() < y.key(); });

@@ -3,9 +3,9 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "pfx/base_level/collision/pair.h"
+#include "pfx/base_level/memory/containers.h"
 
 namespace pfx {
 
@@ -32,9 +32,9 @@ void comparePairs(std::span<const Pair> prev, std::span<const Pair> cur, Added&&
 }
 
 struct PairChanges {
-  std::vector<Pair> added;    // as in cur
-  std::vector<Pair> kept;     // as in prev, with its contact_id and flags
-  std::vector<Pair> removed;  // as in prev, so that the contact can be released
+  Vector<Pair> added;    // as in cur
+  Vector<Pair> kept;     // as in prev, with its contact_id and flags
+  Vector<Pair> removed;  // as in prev, so that the contact can be released
 };
 
 // Splits two lists of pairs, both sorted by key and without repetitions. The results are sorted by key.
@@ -43,6 +43,6 @@ void decomposePairs(std::span<const Pair> prev, std::span<const Pair> cur, PairC
 
 // Joins two sorted lists that share no key into one sorted list: kept and added pairs make the list of the
 // next step.
-void composePairs(std::span<const Pair> a, std::span<const Pair> b, std::vector<Pair>& out);
+void composePairs(std::span<const Pair> a, std::span<const Pair> b, Vector<Pair>& out);
 
 }  // namespace pfx

@@ -242,7 +242,7 @@ uint32_t DynamicTree::height() const {
   struct Entry {
     uint32_t node, depth;
   };
-  std::vector<Entry> stack = {{root_, 1}};
+  Vector<Entry> stack = {{root_, 1}};
   uint32_t deepest = 0;
   while (!stack.empty()) {
     const auto [index, depth] = stack.back();

@@ -18,8 +18,8 @@
 #include <limits>
 #include <span>
 #include <utility>
-#include <vector>
 
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/base_level/shape/aabb.h"
 
 namespace pfx {
@@ -123,9 +123,9 @@ class DynamicTree {
   uint32_t root_ = kNoNode;
   uint32_t num_leaves_ = 0;
   uint32_t largest_size_ = 0;  // since everything was last built at once
-  std::vector<Node> nodes_;
-  std::vector<uint32_t> free_nodes_;
-  std::vector<TreeLeaf> rebuilt_;  // scratch of rebuild()
+  Vector<Node> nodes_;
+  Vector<uint32_t> free_nodes_;
+  Vector<TreeLeaf> rebuilt_;  // scratch of rebuild()
 };
 
 }  // namespace pfx

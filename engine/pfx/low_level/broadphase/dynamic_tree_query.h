@@ -10,6 +10,7 @@
 #include <emmintrin.h>
 #endif
 
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/low_level/broadphase/dynamic_tree.h"
 
 namespace pfx {
@@ -98,7 +99,7 @@ inline constexpr std::size_t kTreeStack = 3 * 31 + 4;
 template <class Fn>
 void DynamicTree::visit(Fn&& fn) const {
   if (root_ == kNoNode) return;
-  std::vector<std::pair<uint32_t, uint32_t>> waiting = {{root_, 0}};  // nodes and their levels
+  Vector<std::pair<uint32_t, uint32_t>> waiting = {{root_, 0}};  // nodes and their levels
   while (!waiting.empty()) {
     const auto [at, level] = waiting.back();
     const Node& node = nodes_[at];

@@ -3,9 +3,9 @@
 namespace pfx {
 
 DynamicTree makeShapeTree(std::span<const Shape> shapes) {
-  std::vector<TreeLeaf> leaves;
+  Vector<TreeLeaf> leaves;
   for (uint32_t i = 0; i < shapes.size(); ++i) leaves.push_back({shapeAabb(shapes[i].geometry, shapes[i].offset), i});
-  std::vector<DynamicTree::Location> locations(leaves.size(), DynamicTree::kNowhere);
+  Vector<DynamicTree::Location> locations(leaves.size(), DynamicTree::kNowhere);
   DynamicTree tree;
   tree.build(leaves, locations);
   return tree;

@@ -84,7 +84,7 @@ void SweepBroadphase::order(std::span<const BroadphaseProxy> proxies, int axis, 
   });
 }
 
-void SweepBroadphase::sweep(TaskRange range, std::vector<Pair>& out) const {
+void SweepBroadphase::sweep(TaskRange range, Vector<Pair>& out) const {
   const auto& [a, b, c] = lanes_;
   for (uint32_t i = range.begin; i < range.end; ++i) {
     const BroadphaseProxy& proxy = sorted_[i];
@@ -105,7 +105,7 @@ void SweepBroadphase::sweep(TaskRange range, std::vector<Pair>& out) const {
 
 void SweepBroadphase::collect(TaskManager* tasks) {
   pairs_.clear();
-  for (const std::vector<Pair>& part : found_) pairs_.insert(pairs_.end(), part.begin(), part.end());
+  for (const Vector<Pair>& part : found_) pairs_.insert(pairs_.end(), part.begin(), part.end());
   pairs_work_.resize(pairs_.size());
   sort(std::span(pairs_), std::span(pairs_work_), tasks);
 }
@@ -114,7 +114,7 @@ std::span<const Pair> SweepBroadphase::findPairs(std::span<const BroadphaseProxy
                                                  TaskManager* tasks) {
   order(proxies, axis, tasks);
   found_.resize(static_cast<std::size_t>(numWorkers(tasks)));
-  for (std::vector<Pair>& part : found_) part.clear();
+  for (Vector<Pair>& part : found_) part.clear();
   parallelFor(tasks, static_cast<uint32_t>(proxies.size()), kGrain,
               [&](TaskRange range) { sweep(range, found_[range.worker]); });
   collect(tasks);

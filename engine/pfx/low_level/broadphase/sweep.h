@@ -9,10 +9,10 @@
 #include <array>
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "pfx/base_level/collision/pair.h"
 #include "pfx/base_level/error.h"
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/low_level/broadphase/proxy.h"
 #include "pfx/low_level/sort/radix_sort.h"
 
@@ -29,7 +29,7 @@ class SweepBroadphase {
  private:
   // Bounds in sweep order, padded so that four can be read from any proxy.
   struct Lanes {
-    std::vector<float> min, max;
+    Vector<float> min, max;
   };
   struct Entry {
     uint32_t key_value, index;
@@ -37,14 +37,14 @@ class SweepBroadphase {
   };
 
   void order(std::span<const BroadphaseProxy> proxies, int axis, TaskManager* tasks);
-  void sweep(TaskRange range, std::vector<Pair>& out) const;
+  void sweep(TaskRange range, Vector<Pair>& out) const;
   void collect(TaskManager* tasks);
 
-  std::vector<Entry> entries_, entries_work_;
+  Vector<Entry> entries_, entries_work_;
   std::array<Lanes, 3> lanes_;  // the sweep axis first
-  std::vector<BroadphaseProxy> sorted_;
-  std::vector<std::vector<Pair>> found_;  // by worker
-  std::vector<Pair> pairs_, pairs_work_;
+  Vector<BroadphaseProxy> sorted_;
+  Vector<Vector<Pair>> found_;  // by worker
+  Vector<Pair> pairs_, pairs_work_;
 };
 
 // The same into a buffer of the caller. Error::OutOfMaxPairs when it is too small: nothing is written then,

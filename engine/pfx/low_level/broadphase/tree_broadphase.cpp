@@ -75,7 +75,7 @@ void TreeBroadphase::takeOut(uint32_t body) {
   status_[body] = static_cast<uint8_t>((status_[body] & ~(kResting | kActive)) | kGone);
 }
 
-void TreeBroadphase::addLeaves(DynamicTree& tree, std::vector<TreeLeaf>& leaves) {
+void TreeBroadphase::addLeaves(DynamicTree& tree, Vector<TreeLeaf>& leaves) {
   if (leaves.size() < kFewLeaves || leaves.size() < tree.size() / kBulkShare) {
     for (const TreeLeaf& leaf : leaves) tree.insert(leaf, locations_);
     return;
@@ -92,7 +92,7 @@ Error TreeBroadphase::rest(std::span<const BroadphaseProxy> proxies) {
     num_bodies = std::max(num_bodies, proxy.body + 1);
   }
   grow(num_bodies);
-  std::vector<TreeLeaf> leaves;  // may be large, and is not needed again
+  Vector<TreeLeaf> leaves;  // may be large, and is not needed again
   for (const BroadphaseProxy& proxy : proxies) {
     const uint32_t body = proxy.body;
     const bool is_repeated = (status_[body] & kResting) && locations_[body] == DynamicTree::kNowhere;

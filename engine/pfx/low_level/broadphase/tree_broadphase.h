@@ -15,10 +15,10 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "pfx/base_level/collision/pair.h"
 #include "pfx/base_level/error.h"
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/low_level/broadphase/dynamic_tree.h"
 #include "pfx/low_level/broadphase/proxy.h"
 
@@ -103,7 +103,7 @@ class TreeBroadphase {
   void settle(const BroadphaseProxy& proxy, Status home);
   bool isSettled(const BroadphaseProxy& proxy) const;
   void takeOut(uint32_t body);
-  void addLeaves(DynamicTree& tree, std::vector<TreeLeaf>& leaves);
+  void addLeaves(DynamicTree& tree, Vector<TreeLeaf>& leaves);
   bool mayPair(uint32_t a, uint32_t b) const;
 
   void compareWithLeaves(std::span<const BroadphaseProxy> active, TaskManager* tasks);
@@ -111,36 +111,36 @@ class TreeBroadphase {
   void moveLeaves(std::span<const BroadphaseProxy> active);
   void rebuildActiveTree(std::span<const BroadphaseProxy> active);
   void search(TaskManager* tasks);
-  void searchAround(uint32_t body, std::vector<PairKey>& out) const;
+  void searchAround(uint32_t body, Vector<PairKey>& out) const;
   void updateCandidates();
   void updateRestingPairs();
   void selectOverlapping(TaskManager* tasks);
 
   // By body. `bounds_` are the exact ones; `locations_` are places in the tree of the home, or kNowhere for
   // bodies without proper bounds.
-  std::vector<uint8_t> status_;
-  std::vector<Record> records_;
-  std::vector<Aabb> bounds_;
-  std::vector<DynamicTree::Location> locations_;
+  Vector<uint8_t> status_;
+  Vector<Record> records_;
+  Vector<Aabb> bounds_;
+  Vector<DynamicTree::Location> locations_;
 
   DynamicTree resting_tree_, active_tree_;
   uint32_t stamp_ = 0;
   uint32_t moved_since_build_ = 0;   // leaves of the active tree that were refitted
   uint32_t num_restless_ = 0;        // bodies in the resting tree that are not Fixed
   bool resting_changed_ = false;     // a resting body came or went since the last update
-  std::vector<uint32_t> active_;     // bodies of the last update
-  std::vector<uint32_t> fresh_;      // resting bodies whose pairs have to be searched for
-  std::vector<PairKey> candidates_;  // pairs of leaves that overlap, one or both active; sorted
-  std::vector<Pair> active_pairs_, resting_pairs_, all_pairs_;  // sorted
+  Vector<uint32_t> active_;     // bodies of the last update
+  Vector<uint32_t> fresh_;      // resting bodies whose pairs have to be searched for
+  Vector<PairKey> candidates_;  // pairs of leaves that overlap, one or both active; sorted
+  Vector<Pair> active_pairs_, resting_pairs_, all_pairs_;  // sorted
 
   // Scratch of a step.
-  std::vector<TreeLeaf> leaf_of_;  // by place in `active`: the new leaf, id kUnmoved when the old one stays
-  std::vector<uint32_t> moved_;    // bodies
-  std::vector<TreeLeaf> leaves_;
-  std::vector<std::vector<PairKey>> found_by_worker_;
-  std::vector<PairKey> found_, work_, merged_, resting_found_;
-  std::vector<Pair> merged_pairs_;
-  std::vector<uint32_t> block_counts_;
+  Vector<TreeLeaf> leaf_of_;  // by place in `active`: the new leaf, id kUnmoved when the old one stays
+  Vector<uint32_t> moved_;    // bodies
+  Vector<TreeLeaf> leaves_;
+  Vector<Vector<PairKey>> found_by_worker_;
+  Vector<PairKey> found_, work_, merged_, resting_found_;
+  Vector<Pair> merged_pairs_;
+  Vector<uint32_t> block_counts_;
 };
 
 }  // namespace pfx

@@ -46,7 +46,7 @@ bool TreeBroadphase::mayPair(uint32_t a, uint32_t b) const {
 
 // Pairs of `body`, whose leaf is new, with all others. Two bodies that both changed find each other twice;
 // the one with the lower index reports it.
-void TreeBroadphase::searchAround(uint32_t body, std::vector<PairKey>& out) const {
+void TreeBroadphase::searchAround(uint32_t body, Vector<PairKey>& out) const {
   if (locations_[body] == DynamicTree::kNowhere) return;
   const bool is_active = status_[body] & kActive;
   const Aabb box = (is_active ? active_tree_ : resting_tree_).boundsAt(locations_[body]);
@@ -62,7 +62,7 @@ void TreeBroadphase::searchAround(uint32_t body, std::vector<PairKey>& out) cons
 
 void TreeBroadphase::search(TaskManager* tasks) {
   found_by_worker_.resize(static_cast<std::size_t>(numWorkers(tasks)));
-  for (std::vector<PairKey>& part : found_by_worker_) part.clear();
+  for (Vector<PairKey>& part : found_by_worker_) part.clear();
   const uint32_t num_moved = static_cast<uint32_t>(moved_.size());
   parallelFor(tasks, num_moved + static_cast<uint32_t>(fresh_.size()), kSearchGrain, [&](TaskRange range) {
     for (uint32_t i = range.begin; i < range.end; ++i) {
@@ -74,7 +74,7 @@ void TreeBroadphase::search(TaskManager* tasks) {
   });
   found_.clear();
   resting_found_.clear();
-  for (const std::vector<PairKey>& part : found_by_worker_) {
+  for (const Vector<PairKey>& part : found_by_worker_) {
     for (const PairKey& key : part) {
       const auto [a, b, contact, flags] = toPair(key.value);
       const bool active = (status_[a] | status_[b]) & kActive;

@@ -1,9 +1,8 @@
 // Narrow phase of two bodies: every shape of one against every shape of the other that may touch it.
 #pragma once
 
-#include <vector>
-
 #include "pfx/base_level/collision/mesh_contact.h"
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/base_level/shape/collidable.h"
 
 namespace pfx {
@@ -15,7 +14,7 @@ struct BodyPair {
 };
 
 struct FoundManifolds {
-  std::vector<ContactManifold>& manifolds;
+  Vector<ContactManifold>& manifolds;
   bool rolls = false;  // a round surface touches
   bool leans = false;  // a mesh has a contact with a normal that is not that of its facet
 };

@@ -8,10 +8,10 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "pfx/base_level/collision/contact_manifold.h"
 #include "pfx/base_level/collision/pair_table.h"
+#include "pfx/base_level/memory/containers.h"
 
 namespace pfx {
 
@@ -59,10 +59,10 @@ class ContactStore {
   static constexpr int kSizeClasses = 16;
   void releaseBlock(Contact& contact);
 
-  std::vector<Contact> contacts_;
-  std::vector<uint32_t> free_contacts_;
-  std::vector<ContactManifold> pool_;
-  std::vector<uint32_t> free_blocks_[kSizeClasses];
+  Vector<Contact> contacts_;
+  Vector<uint32_t> free_contacts_;
+  Vector<ContactManifold> pool_;
+  Vector<uint32_t> free_blocks_[kSizeClasses];
 };
 
 }  // namespace pfx

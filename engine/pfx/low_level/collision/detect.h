@@ -6,10 +6,10 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "pfx/base_level/collision/mesh_contact.h"
 #include "pfx/base_level/collision/pair.h"
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/base_level/rigid_body/rigid_state.h"
 #include "pfx/base_level/shape/collidable.h"
 #include "pfx/low_level/collision/contact_store.h"
@@ -51,10 +51,10 @@ class CollisionDetector {
   };
   struct Scratch {
     MeshContactScratch mesh;
-    std::vector<ContactManifold> found;    // of the pair at hand
-    std::vector<ContactManifold> storage;  // of pending pairs
-    std::vector<Pending> pending;
-    std::vector<MeshPair> mesh_pairs;
+    Vector<ContactManifold> found;    // of the pair at hand
+    Vector<ContactManifold> storage;  // of pending pairs
+    Vector<Pending> pending;
+    Vector<MeshPair> mesh_pairs;
     uint32_t recycled = 0;
   };
 
@@ -63,9 +63,9 @@ class CollisionDetector {
   void prepareScratch(uint32_t num_workers);
   void assignPending(const DetectInput& input, ContactStore& contacts);
 
-  std::vector<Scratch> scratch_;                      // by worker
-  std::vector<std::pair<uint32_t, uint32_t>> order_;  // (pair, worker) of what is pending
-  std::vector<MeshPair> mesh_pairs_;                  // of the last call
+  Vector<Scratch> scratch_;                      // by worker
+  Vector<std::pair<uint32_t, uint32_t>> order_;  // (pair, worker) of what is pending
+  Vector<MeshPair> mesh_pairs_;                  // of the last call
   uint32_t num_recycled_ = 0;
 };
 

@@ -5,16 +5,15 @@
 // finds slowly.
 #pragma once
 
-#include <vector>
-
 #include "pfx/base_level/collision/contact_manifold.h"
 #include "pfx/base_level/collision/local_manifold.h"
+#include "pfx/base_level/memory/containers.h"
 
 namespace pfx {
 
 // Joins manifolds of one pair of bodies with the same normal (to a quarter of a degree) into one of four
 // points, by the four-point rule. `candidates` is scratch.
-void mergeManifolds(const Transform& b_in_a, std::vector<LocalContact>& candidates,
-                    std::vector<ContactManifold>& manifolds);
+void mergeManifolds(const Transform& b_in_a, Vector<LocalContact>& candidates,
+                    Vector<ContactManifold>& manifolds);
 
 }  // namespace pfx

@@ -51,7 +51,7 @@ void judge(const Collidable& collidable, const Transform& pose, const SurfacePoi
   }
 }
 
-void dropGhostContacts(const SeamInput& input, std::vector<MeshPair>& found, ContactStore& contacts) {
+void dropGhostContacts(const SeamInput& input, Vector<MeshPair>& found, ContactStore& contacts) {
   std::sort(found.begin(), found.end());
   if (std::ranges::none_of(found, &MeshPair::leans)) return;
   for (std::span<const MeshPair> rest = found; !rest.empty();) {

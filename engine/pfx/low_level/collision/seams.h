@@ -3,10 +3,10 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "pfx/base_level/collision/mesh_seam.h"
 #include "pfx/base_level/collision/pair.h"
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/base_level/rigid_body/rigid_state.h"
 #include "pfx/base_level/shape/collidable.h"
 #include "pfx/low_level/collision/contact_store.h"
@@ -33,7 +33,7 @@ struct SeamInput {
 
 // Drops contact points with a normal that the meshes under a body do not have together (see mesh_seam.h).
 // Sorts `found`, the mesh pairs of a step in any order; the result does not depend on it.
-void dropGhostContacts(const SeamInput& input, std::vector<MeshPair>& found, ContactStore& contacts);
+void dropGhostContacts(const SeamInput& input, Vector<MeshPair>& found, ContactStore& contacts);
 
 // The pairs of one body among sorted ones.
 std::span<const MeshPair> meshPairsOf(std::span<const MeshPair> sorted, uint32_t body);

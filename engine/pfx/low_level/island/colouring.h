@@ -9,8 +9,8 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/low_level/island/link.h"
 
 namespace pfx {
@@ -33,10 +33,10 @@ class Colouring {
  private:
   void choose(std::span<const Link> links, std::span<const uint8_t> is_dynamic);
 
-  std::vector<uint64_t> used_;         // by body, bit c: a link of colour c; all zero between builds
-  std::vector<uint8_t> colour_;        // by link
-  std::vector<uint32_t> order_;        // link indices by colour, the overflow at the end
-  std::vector<uint32_t> begin_ = {0};  // (colours in use + 1)
+  Vector<uint64_t> used_;         // by body, bit c: a link of colour c; all zero between builds
+  Vector<uint8_t> colour_;        // by link
+  Vector<uint32_t> order_;        // link indices by colour, the overflow at the end
+  Vector<uint32_t> begin_ = {0};  // (colours in use + 1)
 };
 
 }  // namespace pfx

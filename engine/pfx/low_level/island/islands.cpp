@@ -16,10 +16,10 @@ bool isStrictlyAscending(std::span<const uint32_t> v, uint32_t end) {
 
 // Turns counts at [i + 1] into begins at [i]; scatter(i) then hands out places and advances begin[i], so that
 // after the scatter begin[i] is the end of i. shiftBack restores it.
-void accumulate(std::vector<uint32_t>& counts) {
+void accumulate(Vector<uint32_t>& counts) {
   for (std::size_t i = 1; i < counts.size(); ++i) counts[i] += counts[i - 1];
 }
-void shiftBack(std::vector<uint32_t>& ends) {
+void shiftBack(Vector<uint32_t>& ends) {
   for (std::size_t i = ends.size() - 1; i > 0; --i) ends[i] = ends[i - 1];
   ends[0] = 0;
 }

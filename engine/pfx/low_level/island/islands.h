@@ -9,9 +9,9 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
 
 #include "pfx/base_level/error.h"
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/base_level/rigid_body/rigid_state.h"
 #include "pfx/low_level/island/link.h"
 
@@ -44,11 +44,11 @@ class Islands {
   void listLinks(std::span<const Link> links);
 
   uint32_t num_islands_ = 0;
-  std::vector<uint32_t> active_;
-  std::vector<uint32_t> parent_;  // by body; kNoIsland when not active. Restored after each build.
-  std::vector<uint32_t> island_;  // by body; kNoIsland when not active
-  std::vector<uint32_t> bodies_, links_;
-  std::vector<uint32_t> body_begin_, link_begin_;  // (islands + 1)
+  Vector<uint32_t> active_;
+  Vector<uint32_t> parent_;  // by body; kNoIsland when not active. Restored after each build.
+  Vector<uint32_t> island_;  // by body; kNoIsland when not active
+  Vector<uint32_t> bodies_, links_;
+  Vector<uint32_t> body_begin_, link_begin_;  // (islands + 1)
 };
 
 }  // namespace pfx

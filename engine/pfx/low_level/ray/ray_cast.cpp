@@ -157,7 +157,7 @@ void findOverlaps(const OverlapInput& input, const QueryScene& scene, std::vecto
   const Aabb box = shapeAabb(input.geometry, input.pose).grown(input.margin);
   const size_t first = bodies.size();
   MeshContactScratch scratch;
-  std::vector<ContactManifold> manifolds;
+  Vector<ContactManifold> manifolds;
   const auto overlaps = [&](const Shape& other, const Transform& pose) {
     const CollideInput pair{other, pose, shape, input.pose, input.margin};
     if (other.type() == ShapeType::LargeMesh || shape.type() == ShapeType::LargeMesh) {

@@ -6,8 +6,8 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/low_level/island/link.h"
 #include "pfx/low_level/solver/direct_structure.h"
 
@@ -28,10 +28,10 @@ class BodyElimination {
   uint32_t leastCoupled() const;
 
   uint32_t num_bodies_ = 0, words_ = 0;
-  std::vector<Link> links_;
-  std::vector<uint64_t> bits_, column_;  // neighbours by body; those of the body at hand
-  std::vector<uint32_t> degree_;         // kEliminated afterwards
-  std::vector<uint32_t> position_;
+  Vector<Link> links_;
+  Vector<uint64_t> bits_, column_;  // neighbours by body; those of the body at hand
+  Vector<uint32_t> degree_;         // kEliminated afterwards
+  Vector<uint32_t> position_;
   DirectStructure structure_;
 };
 

@@ -13,6 +13,7 @@ enum class ContactStrain : uint8_t {
   None,
   Loaded,   // carries many times the weight of its lighter body
   Leaning,  // may hold up what stands only while nothing gives way
+  Small,    // its bodies are hardly larger than what soft rows give way by
 };
 
 // One manifold to be solved.

@@ -14,9 +14,9 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "pfx/base_level/constraint/solver_body.h"
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/low_level/solver/direct_rows.h"
 #include "pfx/low_level/solver/direct_structure.h"
 #include "pfx/low_level/solver/joint_constraint.h"
@@ -59,7 +59,6 @@ class DirectComponent {
 
  private:
   void linearize(const DirectSubstep& s);
-  void addStiffness(const DirectJoint& j);
   void factor(double regularization);
   void solve();
   double fillResiduals(const DirectSubstep& s, bool velocity_only);
@@ -77,18 +76,19 @@ class DirectComponent {
   void store(std::span<SolverBody> bodies, std::span<const uint32_t> solver_index);
 
   DirectStepParams params_;
-  std::vector<DirectJoint> joints_;
-  std::vector<DirectBody> bodies_;
-  std::vector<TransformDouble> start_;  // poses at the start of the step
-  std::vector<uint32_t> body_index_;
+  Vector<DirectJoint> joints_;
+  Vector<DirectBody> bodies_;
+  Vector<TransformDouble> start_;  // poses at the start of the step
+  Vector<uint32_t> body_index_;
   DirectStructure structure_;
   int block_ = 3;                   // rows of a block: 3, 5 or 6
   bool closed_ = false;             // loops, or held at several places: rows may depend on each other
+  bool redundant_ = false;          // they do
   bool stiff_ = false;              // sub-steps are damped, see stiffnessRatio
   bool started_ = false;            // a sub-step of this step has begun
   bool linearized_ = false;         // at the poses of the bodies, factor included
-  std::vector<uint32_t> position_;  // in the order of elimination, by joint
-  std::vector<double> diagonal_, off_diagonal_, scratch_, x_;
+  Vector<uint32_t> position_;  // in the order of elimination, by joint
+  Vector<double> diagonal_, off_diagonal_, scratch_, x_;
 };
 
 }  // namespace pfx

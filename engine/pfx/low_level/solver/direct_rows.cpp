@@ -329,8 +329,42 @@ RowResidual rowResidual(const DirectJoint& j, int row, std::span<const DirectBod
   const double give = r.softness * r.diagonal * r.impulse;
   if (velocity_only) return {-rowSpeed(j, row, bodies) - give, tolerance};
   const double reached = s.linear ? r.value + s.h * rowSpeed(j, row, bodies) : r.next;
-  const double error = reached - r.goal, slop = s.slop * (r.axis < 3 ? j.length : 1.0);
-  return {-(error - std::clamp(error, -slop, slop)) / s.h - give, tolerance};
+  return {-(reached - r.goal) / s.h - give, tolerance};
+}
+
+// sym(F r^T) - (r . F) 1 at lever r.
+void addStiffness(const DirectJoint& j, std::span<DirectBody> bodies) {
+  for (int side = 0; side < 2; ++side) {
+    if (!j.moves[side]) continue;
+    DirectBody& b = bodies[j.body[side]];
+    Vec3d force = Vec3d::Zero();
+    for (int i = 0; i < j.num_rows; ++i) {
+      const double* m = j.jacobian[side][i];
+      force += static_cast<double>(j.joint->axis[j.row[i].axis].force) * Vec3d(m[0], m[1], m[2]);
+    }
+    const Vec3d arm = b.pose.orientation * (side == 0 ? j.joint->anchor_a : j.joint->anchor_b).cast<double>();
+    const Mat3d product = force * arm.transpose();
+    b.stiffness += 0.5 * (product + product.transpose());
+    b.stiffness.diagonal().array() -= arm.dot(force);
+  }
+}
+
+void sumImpulses(DirectJoint& j, std::span<const DirectBody> bodies) {
+  const Vec3d arm = bodies[j.body[1]].pose.orientation * j.joint->anchor_b.cast<double>();
+  for (int k = 0; k < j.num_rows; ++k) {
+    const double* m = j.jacobian[1][k];
+    const Vec3d force(m[0], m[1], m[2]), torque(m[3], m[4], m[5]);
+    j.impulse_sum += j.row[k].impulse * force;
+    j.torque_sum += j.row[k].impulse * (torque - arm.cross(force));
+  }
+}
+
+void reportForces(const DirectJoint& j, double dt) {
+  j.joint->force = (j.impulse_sum / dt).cast<float>();
+  j.joint->torque = (j.torque_sum / dt).cast<float>();
+  if (j.joint->kind != JointKind::Gear) return;
+  j.joint->gear_angle_a = static_cast<float>(j.turned.a);
+  j.joint->gear_angle_b = static_cast<float>(j.turned.b);
 }
 
 }  // namespace pfx

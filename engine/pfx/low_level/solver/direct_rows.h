@@ -65,7 +65,6 @@ struct DirectSubstep {
   double part;    // share of h that forces act for: 1, or 0.5 at the ends of a leapfrog step
   bool leapfrog;  // velocities belong to the middle of the sub-step
   bool linear;    // positions at the end of the sub-step are taken from the Jacobian
-  double slop;    // share of `length` below which a position error counts as none
 };
 
 // Chooses the rows of a joint, when its kind or locks have changed.
@@ -92,6 +91,15 @@ void measureNext(DirectJoint& j, std::span<const DirectBody> bodies, double h);
 // Brings rows in or takes them out. velocity_only: at the current pose instead of the predicted one. first:
 // nothing is solved yet, rows only come in. Returns whether anything changed.
 bool updateRows(DirectJoint& j, std::span<DirectBody> bodies, bool velocity_only, bool first);
+
+// Adds to the stiffness of the bodies how the torque of the joint's forces changes as they turn.
+void addStiffness(const DirectJoint& j, std::span<DirectBody> bodies);
+
+// Adds the impulses of a sub-step to those of the step.
+void sumImpulses(DirectJoint& j, std::span<const DirectBody> bodies);
+
+// Writes what the joint reports of a step of dt seconds: its mean force and torque, and the angles of gears.
+void reportForces(const DirectJoint& j, double dt);
 
 // Speed that row `row` lacks, and as `tolerance` what of that counts as nothing.
 struct RowResidual {

@@ -2,7 +2,6 @@
 #include "pfx/low_level/solver/direct_structure.h"
 
 #include <algorithm>
-#include <set>
 #include <utility>
 
 namespace pfx {
@@ -13,17 +12,17 @@ struct Side {
   uint8_t side;
 };
 
-std::vector<std::vector<Side>> sidesByBody(std::span<const JointEnds> joints, uint32_t num_bodies) {
-  std::vector<std::vector<Side>> sides(num_bodies);
+Vector<Vector<Side>> sidesByBody(std::span<const JointEnds> joints, uint32_t num_bodies) {
+  Vector<Vector<Side>> sides(num_bodies);
   for (uint32_t j = 0; j < joints.size(); ++j)
     for (uint8_t s = 0; s < 2; ++s)
       if (joints[j].moves[s]) sides[joints[j].body[s]].push_back({j, s});
   return sides;
 }
 
-using Neighbours = std::vector<std::set<uint32_t>>;
+using Neighbours = Vector<Set<uint32_t>>;
 
-Neighbours graphOf(const std::vector<std::vector<Side>>& sides, size_t num_joints) {
+Neighbours graphOf(const Vector<Vector<Side>>& sides, size_t num_joints) {
   Neighbours n(num_joints);
   for (const auto& at_body : sides)
     for (const Side& x : at_body)
@@ -35,14 +34,14 @@ Neighbours graphOf(const std::vector<std::vector<Side>>& sides, size_t num_joint
 // Eliminates joint after joint; columns[p] are the joints that the joint at position p is coupled to at that
 // moment. False when that becomes too much work.
 bool eliminate(Neighbours& graph, uint64_t max_products, DirectStructure& out,
-               std::vector<std::vector<uint32_t>>& columns) {
-  std::set<std::pair<size_t, uint32_t>> queue;
+               Vector<Vector<uint32_t>>& columns) {
+  Set<std::pair<size_t, uint32_t>> queue;
   for (uint32_t j = 0; j < graph.size(); ++j) queue.insert({graph[j].size(), j});
   uint64_t products = 0;
   while (!queue.empty()) {
     const uint32_t joint = queue.begin()->second;
     queue.erase(queue.begin());
-    const std::vector<uint32_t> others(graph[joint].begin(), graph[joint].end());
+    const Vector<uint32_t> others(graph[joint].begin(), graph[joint].end());
     products += others.size() * (others.size() + 1) / 2;
     if (products > max_products) return false;
     for (uint32_t o : others) {
@@ -83,12 +82,12 @@ bool buildDirectStructure(std::span<const JointEnds> joints, uint32_t num_bodies
   for (const auto& at_body : sides)
     if (at_body.size() * at_body.size() > 2 * max_products) return false;
   Neighbours graph = graphOf(sides, joints.size());
-  std::vector<std::vector<uint32_t>> columns;
+  Vector<Vector<uint32_t>> columns;
   if (!eliminate(graph, max_products, out, columns)) {
     out = {};
     return false;
   }
-  std::vector<uint32_t> position(joints.size());
+  Vector<uint32_t> position(joints.size());
   for (uint32_t p = 0; p < out.order.size(); ++p) position[out.order[p]] = p;
   out.column_begin.assign(1, 0);
   for (auto& column : columns) {

@@ -9,7 +9,8 @@
 
 #include <cstdint>
 #include <span>
-#include <vector>
+
+#include "pfx/base_level/memory/containers.h"
 
 namespace pfx {
 
@@ -29,13 +30,13 @@ struct DirectStructure {
     uint32_t block;                    // index of the off-diagonal block
   };
 
-  std::vector<uint32_t> order;         // local joint index by position
-  std::vector<uint32_t> column_begin;  // (joints + 1), into entries; entry k owns off-diagonal block k
-  std::vector<Entry> entries;          // rows ascending in each column
+  Vector<uint32_t> order;         // local joint index by position
+  Vector<uint32_t> column_begin;  // (joints + 1), into entries; entry k owns off-diagonal block k
+  Vector<Entry> entries;          // rows ascending in each column
   // For each column, for each pair (i, k <= i) of its entries: the block that the product changes; diagonal
   // blocks of the row are given as kDiagonal.
-  std::vector<uint32_t> updates;
-  std::vector<Coupling> couplings;
+  Vector<uint32_t> updates;
+  Vector<Coupling> couplings;
 
   static constexpr uint32_t kDiagonal = 0xffffffffu;
 

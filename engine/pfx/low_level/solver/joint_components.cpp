@@ -47,8 +47,8 @@ bool JointComponents::update(std::span<const JointConstraint> joints, uint32_t n
   solver_ = solver;
   joints_.assign(joints.begin(), joints.end());
   components_.clear();
-  std::vector<uint32_t> movable;
-  std::vector<Link> links;
+  Vector<uint32_t> movable;
+  Vector<Link> links;
   for (const JointConstraint& c : joints_) {
     links.push_back(linkOf(c));
     if (c.writable_a) movable.push_back(c.body_a);
@@ -57,14 +57,18 @@ bool JointComponents::update(std::span<const JointConstraint> joints, uint32_t n
   std::sort(movable.begin(), movable.end());
   movable.erase(std::unique(movable.begin(), movable.end()), movable.end());
   islands_.build(num_bodies, movable, links);
-  for (uint32_t k = 0; k < islands_.size(); ++k) addComponent(islands_.links(k), solver);
+  component_of_.resize(joints_.size());
+  for (uint32_t k = 0; k < islands_.size(); ++k) {
+    for (uint32_t joint : islands_.links(k)) component_of_[joint] = k;
+    addComponent(islands_.links(k), solver);
+  }
   return true;
 }
 
 void JointComponents::addComponent(std::span<const uint32_t> joints, JointSolver solver) {
   JointComponent& c = components_.emplace_back();
   size_t inner = 0;
-  std::vector<uint32_t> movable;
+  Vector<uint32_t> movable;
   for (uint32_t i : joints) {
     const JointConstraint& j = joints_[i];
     c.joints.push_back(j);

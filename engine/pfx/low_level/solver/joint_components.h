@@ -5,10 +5,9 @@
 // or the choice of the solver change.
 #pragma once
 
-#include <deque>
 #include <span>
-#include <vector>
 
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/low_level/island/islands.h"
 #include "pfx/low_level/solver/direct_component.h"
 #include "pfx/low_level/solver/joint_constraint.h"
@@ -20,26 +19,29 @@ struct JointComponent {
   bool is_soft = true;     // in this step
   bool has_gears = false;
   DirectComponent direct;  // when is_direct
-  std::vector<JointConstraint> joints;
-  std::vector<uint32_t> bodies;        // indices of states, ascending, movable or not
-  std::vector<uint32_t> solver_index;  // by entry of bodies; while it is solved together with contacts
-  std::vector<BodyMotion> motions;     // by entry of bodies
+  Vector<JointConstraint> joints;
+  Vector<uint32_t> bodies;        // indices of states, ascending, movable or not
+  Vector<uint32_t> solver_index;  // by entry of bodies; while it is solved together with contacts
+  Vector<BodyMotion> motions;     // by entry of bodies
 };
 
 class JointComponents {
  public:
   // Brings the components up to date. Returns whether they changed. num_bodies: of all states.
   bool update(std::span<const JointConstraint> joints, uint32_t num_bodies, JointSolver solver);
-  std::deque<JointComponent>& components() { return components_; }
+  Deque<JointComponent>& components() { return components_; }
+  // joint: index into those of the last update.
+  JointComponent& componentOf(uint32_t joint) { return components_[component_of_[joint]]; }
 
  private:
   void addComponent(std::span<const uint32_t> joints, JointSolver solver);
 
   JointSolver solver_ = JointSolver::Auto;
-  std::vector<JointConstraint> joints_;
-  std::vector<uint32_t> rows_;  // which axes each joint constrains, and how
+  Vector<JointConstraint> joints_;
+  Vector<uint32_t> rows_;  // which axes each joint constrains, and how
   Islands islands_;
-  std::deque<JointComponent> components_;
+  Vector<uint32_t> component_of_;  // by joint
+  Deque<JointComponent> components_;
 };
 
 }  // namespace pfx

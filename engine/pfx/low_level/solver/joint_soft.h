@@ -6,9 +6,9 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
 #include "pfx/base_level/math/vector_double.h"
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/base_level/rigid_body/rigid_state.h"
 #include "pfx/low_level/island/colouring.h"
 #include "pfx/low_level/solver/joint_constraint.h"
@@ -64,14 +64,14 @@ class SoftJoints {
   SoftJointParams params_;
   JointSolveParams solve_params_ = {};
   const JointKernels* kernels_ = nullptr;
-  std::vector<SoftJoint> joints_;
-  std::vector<Link> links_;
+  Vector<SoftJoint> joints_;
+  Vector<Link> links_;
   Colouring colouring_;
-  std::vector<uint32_t> sorted_;
-  std::vector<const SoftJoint*> lanes_;  // in the order of the batches, null in idle lanes
-  std::vector<JointBatch> batches_;
-  std::vector<JointAxisRows> rows_;
-  std::vector<Group> groups_;
+  Vector<uint32_t> sorted_;
+  Vector<const SoftJoint*> lanes_;  // in the order of the batches, null in idle lanes
+  Vector<JointBatch> batches_;
+  Vector<JointAxisRows> rows_;
+  Vector<Group> groups_;
 };
 
 }  // namespace pfx

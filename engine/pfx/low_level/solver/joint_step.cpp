@@ -26,6 +26,11 @@ void JointStep::add(JointComponent& component) {
   if (!component.is_soft) direct_.push_back(&component);
 }
 
+void JointStep::remove(const JointComponent& component) {
+  std::erase(components_, &component);
+  std::erase(direct_, &component);
+}
+
 void JointStep::prepare(std::span<const RigidState> states, std::span<const uint8_t> is_dynamic,
                         std::span<const SolverBody> bodies, const SoftJointParams& params,
                         TaskManager& tasks) {

@@ -3,8 +3,8 @@
 
 #include <algorithm>
 #include <span>
-#include <vector>
 
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/low_level/solver/joint_components.h"
 #include "pfx/low_level/solver/joint_soft.h"
 #include "pfx/low_level/task/task_manager.h"
@@ -15,6 +15,7 @@ class JointStep {
  public:
   void clear();
   void add(JointComponent& component);
+  void remove(const JointComponent& component);
   bool empty() const { return components_.empty(); }
   bool hasSoftGears() const {
     return std::ranges::any_of(components_, [](const JointComponent* c) { return c->is_soft && c->has_gears; });
@@ -35,8 +36,8 @@ class JointStep {
   void end(std::span<const RigidState> states, TaskManager& tasks);
 
  private:
-  std::vector<JointComponent*> components_;
-  std::vector<JointComponent*> direct_;
+  Vector<JointComponent*> components_;
+  Vector<JointComponent*> direct_;
   SoftJoints soft_;
 };
 

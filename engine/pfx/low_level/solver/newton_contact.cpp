@@ -6,13 +6,8 @@
 namespace pfx {
 namespace {
 
-// A row of the Jacobian for B; A has its own turn and the opposite axis.
-struct Row {
-  double a[6], b[6];
-};
-
-Row rowAlong(const NewtonContact& c, const NewtonPoint& p, double along1, double along2) {
-  Row r;
+NewtonJacobian rowAlong(const NewtonContact& c, const NewtonPoint& p, double along1, double along2) {
+  NewtonJacobian r;
   for (int i = 0; i < 3; ++i) {
     const double axis = along1 * c.axis[1][i] + along2 * c.axis[2][i];
     r.b[i] = axis, r.a[i] = -axis;
@@ -22,8 +17,8 @@ Row rowAlong(const NewtonContact& c, const NewtonPoint& p, double along1, double
   return r;
 }
 
-Row normalRow(const NewtonContact& c, const NewtonPoint& p) {
-  Row r;
+NewtonJacobian normalRow(const NewtonContact& c, const NewtonPoint& p) {
+  NewtonJacobian r;
   for (int i = 0; i < 3; ++i) {
     r.b[i] = c.axis[0][i], r.a[i] = -c.axis[0][i];
     r.b[3 + i] = p.turn[1][0][i], r.a[3 + i] = -p.turn[0][0][i];
@@ -38,17 +33,17 @@ void addOuter(double* block, double weight, const double (&row)[6], const double
   }
 }
 
-void addRow(const NewtonContact& c, const NewtonBlocks& blocks, double weight, const Row& r) {
+}  // namespace
+
+void addRow(bool a_is_row, const NewtonBlocks& blocks, double weight, const NewtonJacobian& r) {
   if (blocks.a) addOuter(blocks.a, weight, r.a, r.a);
   if (blocks.b) addOuter(blocks.b, weight, r.b, r.b);
   if (!blocks.pair) return;
-  if (c.a_is_row)
+  if (a_is_row)
     addOuter(blocks.pair, weight, r.a, r.b);
   else
     addOuter(blocks.pair, weight, r.b, r.a);
 }
-
-}  // namespace
 
 void addImpulse(const NewtonContact& c, const NewtonPoint& p, double sign, double* a, double* b) {
   for (int k = 0; k < 3; ++k) {
@@ -90,13 +85,13 @@ bool setCurvature(NewtonPoint& p) {
 void addCurvature(const NewtonContact& c, const NewtonBlocks& blocks) {
   for (int i = 0; i < c.num_points; ++i) {
     const NewtonPoint& p = c.points[i];
-    if (p.curvature[0] > 0.0) addRow(c, blocks, p.curvature[0], normalRow(c, p));
+    if (p.curvature[0] > 0.0) addRow(c.a_is_row, blocks, p.curvature[0], normalRow(c, p));
     if (!(p.curvature[1] > 0.0)) continue;
     if (p.curvature[2] == 0.0 && p.curvature[3] == 0.0) {
-      addRow(c, blocks, p.curvature[1], rowAlong(c, p, 1.0, 0.0));
-      addRow(c, blocks, p.curvature[1], rowAlong(c, p, 0.0, 1.0));
+      addRow(c.a_is_row, blocks, p.curvature[1], rowAlong(c, p, 1.0, 0.0));
+      addRow(c.a_is_row, blocks, p.curvature[1], rowAlong(c, p, 0.0, 1.0));
     } else {
-      addRow(c, blocks, p.curvature[1], rowAlong(c, p, p.curvature[2], p.curvature[3]));
+      addRow(c.a_is_row, blocks, p.curvature[1], rowAlong(c, p, p.curvature[2], p.curvature[3]));
     }
   }
 }

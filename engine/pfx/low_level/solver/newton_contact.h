@@ -67,11 +67,20 @@ void impulsesAt(const NewtonPoint& p, const double (&speed)[3], double (&out)[3]
 // Notes how the impulses change with the speed. Returns whether that differs from before.
 bool setCurvature(NewtonPoint& p);
 
-// Adds J^T curvature J of all points to the blocks (6 x 6, row by row): of A, of B, and of the pair. Null:
-// not moved.
+// A row of the Jacobian.
+struct NewtonJacobian {
+  double a[6], b[6];
+};
+
+// Blocks (6 x 6, row by row) of A, of B, and of the pair. Null: not moved.
 struct NewtonBlocks {
   double *a, *b, *pair;
 };
+
+// Adds weight * J^T J to the blocks.
+void addRow(bool a_is_row, const NewtonBlocks& blocks, double weight, const NewtonJacobian& row);
+
+// Adds J^T curvature J of all points.
 void addCurvature(const NewtonContact& c, const NewtonBlocks& blocks);
 
 }  // namespace pfx

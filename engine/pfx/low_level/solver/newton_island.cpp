@@ -7,6 +7,13 @@
 namespace pfx {
 namespace {
 
+constexpr double kPressed = 2.0;  // of the weight of the island: what carries more is pressed by something else
+constexpr double kStiffening = 8.0;
+constexpr int kMostStiffenings = 7;
+
+// Geometric stiffness counts where h^2 |K| is more than this share of the inertia, see stiffnessRatio.
+constexpr double kStiffnessShare = 0.1;
+
 // No body leaves an island at more than this many times the largest speed before, and this speed (m/s) besides.
 constexpr double kMostGain = 4.0, kMostSpeed = 3.0;
 
@@ -33,15 +40,20 @@ void setTurns(NewtonPoint& p, const NewtonContact& c, const Vec3d (&friction_arm
 
 }  // namespace
 
+uint32_t NewtonIsland::localOf(uint32_t body) const {
+  return static_cast<uint32_t>(std::lower_bound(body_index_.begin(), body_index_.end(), body) - body_index_.begin());
+}
+
+void NewtonIsland::addJoint(const JointConstraint& constraint) {
+  joints_.push_back(makeNewtonJoint(constraint, {localOf(constraint.body_a), localOf(constraint.body_b)}));
+  pfx::begin(joints_.back(), bodies_, params_.h, params_.substeps);
+}
+
 void NewtonIsland::addContact(const ContactConstraint& constraint) {
   const ContactManifold& m = *constraint.manifold;
-  const auto local = [&](uint32_t body) {
-    return static_cast<uint32_t>(std::lower_bound(body_index_.begin(), body_index_.end(), body) -
-                                 body_index_.begin());
-  };
   NewtonContact& c = contacts_.emplace_back();
   c.manifold = constraint.manifold;
-  c.body[0] = local(constraint.solver_a), c.body[1] = local(constraint.solver_b);
+  c.body[0] = localOf(constraint.solver_a), c.body[1] = localOf(constraint.solver_b);
   c.moves[0] = constraint.writable_a, c.moves[1] = constraint.writable_b;
   c.round[0] = constraint.round_a, c.round[1] = constraint.round_b;
   c.num_points = m.num_points;
@@ -52,6 +64,8 @@ void NewtonIsland::addContact(const ContactConstraint& constraint) {
   c.axis[2] = c.axis[0].cross(c.axis[1]);
   const DirectBody* body[2] = {&bodies_[c.body[0]], &bodies_[c.body[1]]};
   Vec3d center[2] = {Vec3d::Zero(), Vec3d::Zero()};
+  double carried = 0.0;
+  for (int i = 0; i < m.num_points; ++i) carried += static_cast<double>(m.points[i].normal_impulse) / m.num_points;
   for (int i = 0; i < m.num_points; ++i) {
     NewtonPoint& p = c.points[i];
     p.arm[0] = body[0]->pose.orientation * m.points[i].local_a.cast<double>();
@@ -72,7 +86,7 @@ void NewtonIsland::addContact(const ContactConstraint& constraint) {
                                 inverseMassAlong(*body[side], p.turn[side][2]));
     }
     p.impulse[0] = m.points[i].normal_impulse;
-    setStiffness(p, inverse_mass, weight_ * params_.h / m.num_points);
+    setStiffness(p, inverse_mass, {weight_ * params_.h / m.num_points, carried});
     const Vec3d friction = m.points[i].friction_impulse.cast<double>();
     p.impulse[1] = friction.dot(c.axis[1]), p.impulse[2] = friction.dot(c.axis[2]);
     rowSpeeds(c, p, velocityOf(c.body[0]), velocityOf(c.body[1]), p.speed);
@@ -87,18 +101,24 @@ void NewtonIsland::addContact(const ContactConstraint& constraint) {
 }
 
 // No contact is pressed in by more than a share of the size of its bodies, even by the weight of the whole island. What
-// it carries at the moment must not decide: the load would swing with its own stiffness.
-void NewtonIsland::setStiffness(NewtonPoint& p, const double (&inverse_mass)[2], double load) const {
+// it carries at the moment must not decide, the load would swing with its own stiffness; unless it is far above that weight,
+// as under a motor, and then in large steps.
+void NewtonIsland::setStiffness(NewtonPoint& p, const double (&inverse_mass)[2], const Load& load) const {
   for (int k = 0; k < 2; ++k) p.stiffness[k] = 1.0 / (params_.give * inverse_mass[k]);
   const double size = std::min(p.arm[0].norm(), p.arm[1].norm());
   const double deepest = params_.max_overlap * size * params_.push_rate / params_.h;  // m/s, its push
-  p.stiffness[0] = std::max(p.stiffness[0], load / deepest);
+  p.stiffness[0] = std::max(p.stiffness[0], load.weight / deepest);
+  if (load.carried < kPressed * load.weight) return;
+  for (int i = 0; i < kMostStiffenings && load.carried > p.stiffness[0] * deepest; ++i) p.stiffness[0] *= kStiffening;
 }
 
 void NewtonIsland::makeStructure() {
   links_.clear();
   for (const NewtonContact& c : contacts_)
     if (c.moves[0] && c.moves[1]) links_.push_back({block_of_[c.body[0]], block_of_[c.body[1]]});
+  for (const NewtonJoint& n : joints_)
+    if (n.joint.moves[0] && n.joint.moves[1])
+      links_.push_back({block_of_[n.joint.body[0]], block_of_[n.joint.body[1]]});
   const auto n = static_cast<uint32_t>(moving_.size());
   if (elimination_.update(links_, n)) {
     const DirectStructure& s = elimination_.structure();
@@ -110,18 +130,19 @@ void NewtonIsland::makeStructure() {
     scratch_.resize(longest * 36);
     x_.resize(size_t(n) * 6);
   }
-  for (NewtonContact& c : contacts_) {
-    if (!c.moves[0] || !c.moves[1]) continue;
-    const uint32_t a = elimination_.position(block_of_[c.body[0]]),
-                   b = elimination_.position(block_of_[c.body[1]]);
-    c.a_is_row = a > b;
-    c.block = findBlock(elimination_.structure(), std::max(a, b), std::min(a, b));
-  }
+  const auto couple = [&](auto& constraint, const uint32_t (&body)[2], const bool (&moves)[2]) {
+    if (!moves[0] || !moves[1]) return;
+    const uint32_t a = elimination_.position(block_of_[body[0]]), b = elimination_.position(block_of_[body[1]]);
+    constraint.a_is_row = a > b;
+    constraint.block = findBlock(elimination_.structure(), std::max(a, b), std::min(a, b));
+  };
+  for (NewtonContact& c : contacts_) couple(c, c.body, c.moves);
+  for (NewtonJoint& j : joints_) couple(j, j.joint.body, j.joint.moves);
 }
 
 void NewtonIsland::begin(std::span<const RigidState> states, std::span<const RigidBody> rigid_bodies,
-                         std::span<const uint32_t> bodies, std::span<const BodyMotion> motions,
-                         std::span<const ContactConstraint> constraints, const NewtonParams& params) {
+                         const NewtonIslandDef& island, const NewtonParams& params) {
+  const std::span<const uint32_t> bodies = island.bodies;
   params_ = params;
   body_index_ = bodies;
   iterations_ = 0;
@@ -133,7 +154,7 @@ void NewtonIsland::begin(std::span<const RigidState> states, std::span<const Rig
   moving_.clear();
   for (auto* v : {&velocity_, &free_velocity_, &direction_, &gradient_}) v->assign(bodies.size() * 6, 0.0);
   for (uint32_t i = 0; i < bodies.size(); ++i) {
-    DirectBody& b = bodies_[i] = makeDirectBody(states[bodies[i]], rigid_bodies[bodies[i]], motions[i]);
+    DirectBody& b = bodies_[i] = makeDirectBody(states[bodies[i]], rigid_bodies[bodies[i]], island.motions[i]);
     updateInverseInertia(b, params.h, false);
     start_[i] = b.pose;
     for (int k = 0; k < 3; ++k) velocityOf(i)[k] = b.v[k], velocityOf(i)[3 + k] = b.w[k];
@@ -144,21 +165,39 @@ void NewtonIsland::begin(std::span<const RigidState> states, std::span<const Rig
   weight_ = 0.0;
   for (uint32_t i : moving_) weight_ += bodies_[i].acceleration.norm() / bodies_[i].inv_mass;
   contacts_.clear();
-  for (const ContactConstraint& c : constraints) addContact(c);
+  for (const ContactConstraint& c : island.contacts) addContact(c);
+  joints_.clear();
+  for (const JointConstraint& c : island.joints) addJoint(c);
   makeStructure();
 }
 
+// Light bodies between heavily loaded joints turn with more inertia where a sub-step cannot follow their vibration.
 void NewtonIsland::updateMass() {
   for (uint32_t i : moving_) {
     DirectBody& b = bodies_[i];
-    updateInverseInertia(b, params_.h, false);
+    const bool stiffen = !joints_.empty() && stiffnessRatio(b, params_.h) > kStiffnessShare;
+    updateInverseInertia(b, params_.h, stiffen);
     const Mat3d r = b.pose.orientation.toRotationMatrix();
-    inertia_[i] = b.spherical ? b.body_inertia : Mat3d(r * b.body_inertia * r.transpose());
+    inertia_[i] = stiffen       ? Mat3d(b.inverse.inverse())
+                  : b.spherical ? b.body_inertia
+                                : Mat3d(r * b.body_inertia * r.transpose());
   }
+}
+
+void NewtonIsland::linearizeJoints(bool push) {
+  if (joints_.empty()) return;
+  factored_ = false;
+  for (uint32_t i : moving_) {
+    updateInverseInertia(bodies_[i], params_.h, false);
+    bodies_[i].stiffness.setZero();
+  }
+  for (NewtonJoint& n : joints_) linearize(n, bodies_, params_.h, push);
+  for (const NewtonJoint& n : joints_) addStiffness(n.joint, bodies_);
 }
 
 // Forces, and as a first guess the impulses of the last sub-step.
 void NewtonIsland::startSubstep() {
+  linearizeJoints(true);
   updateMass();
   for (uint32_t i : moving_) {
     DirectBody& b = bodies_[i];
@@ -170,6 +209,8 @@ void NewtonIsland::startSubstep() {
   for (const NewtonContact& c : contacts_)
     for (int i = 0; i < c.num_points; ++i)
       addImpulse(c, c.points[i], 1.0, &gradient_[size_t(c.body[0]) * 6], &gradient_[size_t(c.body[1]) * 6]);
+  for (const NewtonJoint& n : joints_)
+    addImpulses(n, 1.0, &gradient_[size_t(n.joint.body[0]) * 6], &gradient_[size_t(n.joint.body[1]) * 6]);
   tolerance_ = 0.0;
   for (uint32_t i : moving_) {
     const DirectBody& b = bodies_[i];
@@ -208,6 +249,10 @@ void NewtonIsland::move() {
     const double* v = velocityOf(i);
     b.v = Vec3d(v[0], v[1], v[2]), b.w = Vec3d(v[3], v[4], v[5]);
     predict(b, params_.h);
+  }
+  for (NewtonJoint& n : joints_) measureNext(n.joint, bodies_, params_.h);
+  for (uint32_t i = 0; i < bodies_.size(); ++i) {
+    DirectBody& b = bodies_[i];
     const Quatd before = b.pose.orientation;
     b.pose = b.next;
     if (!b.dynamic) continue;
@@ -267,9 +312,12 @@ bool NewtonIsland::advance(std::span<RigidState> states) {
     setBias(true);
     solve();
     move();
+    for (NewtonJoint& n : joints_) rememberForces(n, params_.h);
+    linearizeJoints(false);
     updateMass();
     setBias(false);
     solve();
+    for (NewtonJoint& n : joints_) rememberForces(n, params_.h), sumImpulses(n.joint, bodies_);
     for (NewtonContact& c : contacts_)
       for (int k = 0; k < c.num_points; ++k)
         c.points[k].most_normal = std::max(c.points[k].most_normal, c.points[k].impulse[0]);
@@ -279,7 +327,10 @@ bool NewtonIsland::advance(std::span<RigidState> states) {
     }
   }
   bounce();
-  if (!(fastest() <= limit)) return false;
+  if (!(fastest() <= limit)) {
+    for (NewtonJoint& n : joints_) forget(n);
+    return false;
+  }
   store(states);
   return true;
 }
@@ -293,6 +344,7 @@ void NewtonIsland::store(std::span<RigidState> states) {
     s.linear_velocity = Vec3d(v[0], v[1], v[2]).cast<float>();
     s.angular_velocity = Vec3d(v[3], v[4], v[5]).cast<float>();
   }
+  for (const NewtonJoint& n : joints_) reportForces(n.joint, params_.h * params_.substeps);
   for (const NewtonContact& c : contacts_) {
     for (int i = 0; i < c.num_points; ++i) {
       const NewtonPoint& p = c.points[i];

@@ -38,6 +38,7 @@ void NewtonIsland::evaluate(bool fix_radius) {
       impulsesAt(p, p.speed, p.impulse);
     }
   }
+  for (NewtonJoint& n : joints_) pfx::evaluate(n, velocityOf(n.joint.body[0]), velocityOf(n.joint.body[1]));
 }
 
 // Gradient M (v - free) - J^T f; returns the largest speed that it would change a body by.
@@ -51,6 +52,8 @@ double NewtonIsland::gradient() {
   for (const NewtonContact& c : contacts_)
     for (int i = 0; i < c.num_points; ++i)
       addImpulse(c, c.points[i], -1.0, &gradient_[size_t(c.body[0]) * 6], &gradient_[size_t(c.body[1]) * 6]);
+  for (const NewtonJoint& n : joints_)
+    addImpulses(n, -1.0, &gradient_[size_t(n.joint.body[0]) * 6], &gradient_[size_t(n.joint.body[1]) * 6]);
   double worst = 0.0;
   for (uint32_t i : moving_) {
     const double* g = &gradient_[size_t(i) * 6];
@@ -65,6 +68,7 @@ void NewtonIsland::factor() {
   bool changed = !factored_;
   for (NewtonContact& c : contacts_)
     for (int i = 0; i < c.num_points; ++i) changed = setCurvature(c.points[i]) || changed;
+  for (NewtonJoint& n : joints_) changed = setCurvature(n) || changed;
   if (!changed) return;
   factored_ = true;
   std::fill(diagonal_.begin(), diagonal_.end(), 0.0);
@@ -78,9 +82,12 @@ void NewtonIsland::factor() {
     for (int r = 0; r < 3; ++r)
       for (int k = 0; k < 3; ++k) d[6 * (3 + r) + 3 + k] = inertia_[i](r, k);
   }
-  for (const NewtonContact& c : contacts_)
-    addCurvature(c, {c.moves[0] ? diagonal(c.body[0]) : nullptr, c.moves[1] ? diagonal(c.body[1]) : nullptr,
-                     c.moves[0] && c.moves[1] ? &off_diagonal_[size_t(c.block) * 36] : nullptr});
+  const auto blocks = [&](const uint32_t (&body)[2], const bool (&moves)[2], uint32_t block) -> NewtonBlocks {
+    return {moves[0] ? diagonal(body[0]) : nullptr, moves[1] ? diagonal(body[1]) : nullptr,
+            moves[0] && moves[1] ? &off_diagonal_[size_t(block) * 36] : nullptr};
+  };
+  for (const NewtonContact& c : contacts_) addCurvature(c, blocks(c.body, c.moves, c.block));
+  for (const NewtonJoint& n : joints_) addCurvature(n, blocks(n.joint.body, n.joint.moves, n.block));
   factorDirect<6>(elimination_.structure(), {diagonal_, off_diagonal_}, scratch_);
 }
 
@@ -96,6 +103,8 @@ void NewtonIsland::search() {
     for (int i = 0; i < c.num_points; ++i)
       rowSpeeds(c, c.points[i], &direction_[size_t(c.body[0]) * 6], &direction_[size_t(c.body[1]) * 6],
                 c.points[i].change);
+  for (NewtonJoint& n : joints_)
+    setChange(n, &direction_[size_t(n.joint.body[0]) * 6], &direction_[size_t(n.joint.body[1]) * 6]);
 }
 
 // Slope of the objective along the search direction.
@@ -116,6 +125,7 @@ double NewtonIsland::slopeAt(double step) const {
       sum -= impulse[0] * p.change[0] + impulse[1] * p.change[1] + impulse[2] * p.change[2];
     }
   }
+  for (const NewtonJoint& n : joints_) sum += pfx::slopeAt(n, step);
   return sum;
 }
 

@@ -20,8 +20,8 @@
 #pragma once
 
 #include <span>
-#include <vector>
 
+#include "pfx/base_level/memory/containers.h"
 #include "pfx/low_level/integrate/substep.h"
 #include "pfx/low_level/island/colouring.h"
 #include "pfx/low_level/solver/contact_kernels.h"
@@ -78,14 +78,14 @@ class SoftStep {
   void run(ContactKernels::Fn kernel, std::span<SolverBody> bodies, TaskManager& tasks);
 
   Colouring colouring_;
-  std::vector<Link> links_;
-  std::vector<const ContactConstraint*>
+  Vector<Link> links_;
+  Vector<const ContactConstraint*>
       lanes_;  // constraints in the order of the batches, null in idle lanes
-  std::vector<ContactRows> rows_;
-  std::vector<RollingRows> rolling_;
-  std::vector<uint32_t> rolling_of_;  // by batch: index into rolling_, or none; empty when no contact resists turning
-  std::vector<Group> groups_;
-  std::vector<uint8_t> misled_;  // by solver body
+  Vector<ContactRows> rows_;
+  Vector<RollingRows> rolling_;
+  Vector<uint32_t> rolling_of_;  // by batch: index into rolling_, or none; empty when no contact resists turning
+  Vector<Group> groups_;
+  Vector<uint8_t> misled_;  // by solver body
   ContactSolveParams solve_params_ = {};
 };
 

@@ -151,23 +151,23 @@ struct TaskManager::Pool {
   }
 };
 
-TaskManager::TaskManager(int num_workers, Sharing sharing)
-    : pool_(std::make_unique<Pool>(std::clamp(num_workers, 1, kMaxWorkers), sharing)) {}
+TaskManager::TaskManager(int num_workers, Sharing sharing) {
+  if (num_workers > 1) pool_ = std::make_unique<Pool>(std::min(num_workers, kMaxWorkers), sharing);
+}
 
 TaskManager::~TaskManager() = default;
 
-int TaskManager::numWorkers() const { return static_cast<int>(pool_->threads.size()) + 1; }
+int TaskManager::numWorkers() const { return pool_ ? static_cast<int>(pool_->threads.size()) + 1 : 1; }
 
 void TaskManager::run(uint32_t count, uint32_t grain, void* fn, Call call) {
   if (count == 0) return;
   grain = std::max(grain, 1u);
-  Pool& pool = *pool_;
   const Pool::Job job{fn, call, count, grain, count / grain + (count % grain != 0)};
-
-  if (pool.threads.empty() || job.num_blocks == 1) {
+  if (!pool_ || job.num_blocks == 1) {
     for (uint32_t block = 0; block < job.num_blocks; ++block) job.runBlock(block, 0);
     return;
   }
+  Pool& pool = *pool_;
 
   // A call site that was never seen shows its cost on the first block.
   Pool::CallSite& site = pool.site(call);

@@ -49,7 +49,7 @@ class TaskManager {
   void run(uint32_t count, uint32_t grain, void* fn, Call call);
 
   struct Pool;
-  std::unique_ptr<Pool> pool_;
+  std::unique_ptr<Pool> pool_;  // null for the caller alone
 };
 
 // The same blocks, one after the other when there is no task manager.

@@ -158,7 +158,19 @@ void storeIslands(LargeMesh& mesh, const std::vector<uint32_t>& firsts) {
 
 // Above this many triangles more islands than need be are no matter; below, every island but the last is full, so that
 // a mesh of 512 x 64 triangles has 512 islands.
-constexpr size_t kFullIslandsBelow = 32768;
+constexpr size_t kFullIslandsBelow = 32768, kMostIslandsBelow = 512;
+
+// The tree, with the items in the order of its leaves. Islands that end where the tree divides are tighter than full ones:
+// high quality has them, unless they would be too many.
+std::vector<BinaryNode> hierarchyOf(std::span<BuildItem> items, const LargeMeshOptions& options) {
+  const bool small = items.size() <= kFullIslandsBelow;
+  if (!options.high_quality) return buildHierarchy(items, {.full_islands = !hasBvh(options.type) || small});
+  HierarchyOptions how{.bins = 32, .all_axes = true};
+  std::vector<BinaryNode> tree = buildHierarchy(items, how);
+  if (!small || cutIslands(tree).size() <= kMostIslandsBelow) return tree;
+  how.full_islands = true;
+  return buildHierarchy(items, how);
+}
 
 }  // namespace
 
@@ -179,10 +191,7 @@ LargeMeshResult buildLargeMesh(std::span<const Vec3> vertices, std::span<const u
   }
 
   std::vector<BuildItem> items = buildItems(vertices, soup);
-  HierarchyOptions how;
-  if (options.high_quality) how = {.bins = 32, .all_axes = true};
-  how.full_islands = !hasBvh(options.type) || items.size() <= kFullIslandsBelow;
-  const std::vector<BinaryNode> tree = buildHierarchy(items, how);
+  const std::vector<BinaryNode> tree = hierarchyOf(items, options);
   reorder(soup, items);
 
   LargeMesh& mesh = result.mesh;

@@ -91,8 +91,8 @@ template <class A, class T, class Allocator>
 void io(A& a, std::vector<T, Allocator>& list) {
   ioList(a, list, [](A& archive, T& entry) { io(archive, entry); });
 }
-template <class A>
-void io(A& a, std::string& text) {
+template <class A, class Traits, class Allocator>
+void io(A& a, std::basic_string<char, Traits, Allocator>& text) {
   ioList(a, text, [](A& archive, char& c) {
     auto u = static_cast<uint8_t>(c);
     archive.number(u);

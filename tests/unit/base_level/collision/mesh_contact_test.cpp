@@ -21,10 +21,10 @@ LargeMesh build(const pfx_test::Soup& soup, LargeMeshType type = LargeMeshType::
   return std::move(r.mesh);
 }
 
-std::vector<ContactManifold> collide(const LargeMesh& mesh, const Geometry& body, const Transform& pose,
+Vector<ContactManifold> collide(const LargeMesh& mesh, const Geometry& body, const Transform& pose,
                                      float margin = 0.01f) {
   MeshContactScratch scratch;
-  std::vector<ContactManifold> out;
+  Vector<ContactManifold> out;
   const Shape ground{&mesh, {}}, shape{body, {}};
   collideMesh({ground, Transform{}, shape, pose, margin}, scratch, out);
   return out;
@@ -206,7 +206,7 @@ TEST(MeshContact, allTypesGiveTheSameContacts) {
     const Transform pose{Vec3(x, ground + 0.29f, z), turn(0.3f * float(i), Vec3(1, 2, 0.5f))};
     for (const Geometry& body : kPrimitives) {
       const auto a = collide(reference, body, pose), b = collide(bvh, body, pose);
-      const auto deepest = [](const std::vector<ContactManifold>& manifolds) {
+      const auto deepest = [](const Vector<ContactManifold>& manifolds) {
         float d = 1.0f;
         for (const ContactManifold& m : manifolds) {
           for (int k = 0; k < m.num_points; ++k) d = std::min(d, m.points[k].distance);
@@ -227,7 +227,7 @@ TEST(MeshContact, swappedPairGivesTheMirroredManifold) {
   const Transform ground_pose{Vec3(5, 2, 1), Quat::Identity()};
   const Transform box_pose{ground_pose.position + ground.offset.apply(Vec3(0, 0.299f, 0)), Quat::Identity()};
   MeshContactScratch scratch;
-  std::vector<ContactManifold> ab, ba;
+  Vector<ContactManifold> ab, ba;
   EXPECT_EQ(collideMesh({ground, ground_pose, box, box_pose, 0.01f}, scratch, ab), 1);
   EXPECT_EQ(collideMesh({box, box_pose, ground, ground_pose, 0.01f}, scratch, ba), 1);
   ASSERT_EQ(ab.size(), 1u);

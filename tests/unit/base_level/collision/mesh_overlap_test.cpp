@@ -91,7 +91,7 @@ TEST(MeshOverlap, shapesLoweredOnARoughMeshTouchItWhereTheyDo) {
       const auto deepestAt = [&](float height) {
         Transform at = pose;
         at.position.y() += height;
-        std::vector<ContactManifold> found;
+        Vector<ContactManifold> found;
         collideMesh({{&mesh, {}}, {}, {body.geometry, {}}, at, kMargin}, scratch, found);
         float distance = 1e30f;
         for (const ContactManifold& m : found) distance = std::min(distance, deepest(m));

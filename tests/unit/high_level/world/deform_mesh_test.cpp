@@ -129,6 +129,25 @@ TEST_P(DeformMesh, NothingFallsThroughAMeshThatJumpsUpByHalfAMetre) {
   }
 }
 
+// What lies in a valley has its centre below neither slope, as their normals see it, once they have passed it.
+TEST_P(DeformMesh, WhatLiesInAValleyIsLiftedAsWell) {
+  for (const Geometry& geometry : {Geometry(Sphere{0.15f}), Geometry(Cylinder{0.3f, 0.15f}), Geometry(Box{Vec3::Constant(0.12f)})}) {
+    World world(def());
+    Sheet sheet(8);
+    for (Vec3& v : sheet.vertices) v.y() = 0.3f * std::abs(v.x());
+    const LargeMesh* mesh = add(world, sheet);
+    const BodyId body = addBody(world, geometry, Vec3(0.0f, 0.25f, 0.4f));
+    for (int i = 0; i < 60; ++i) world.step(kDt);
+    const float before = world.states()[body.index].position.y();
+    ASSERT_GT(before, 0.05f);
+    for (Vec3& v : sheet.vertices) v.y() += 0.5f;
+    world.deformMesh(mesh, sheet.vertices, 0.0f);
+    EXPECT_NEAR(world.states()[body.index].position.y() - before, 0.5f, 0.06f) << geometry.index();
+    for (int i = 0; i < 60; ++i) world.step(kDt);
+    EXPECT_NEAR(world.states()[body.index].position.y() - before, 0.5f, 0.02f) << geometry.index();
+  }
+}
+
 // ACC-27 (a): N = m (g + a), here as the impulse of a step over dt.
 TEST_P(DeformMesh, AFloorThatAcceleratesUpwardsWeighsWhatItShould) {
   World world(def());

@@ -66,6 +66,20 @@ TEST(WorldReport, TheJointSolverChangesWhileTheWorldRuns) {
   EXPECT_FALSE(world.islandSolvers(0).direct_joints);
 }
 
+// A light pair hangs from a direct solve until it touches the ground, and is solved by soft rows beside contacts.
+TEST(WorldReport, JointsBesideContactsAreToldAsTheSoftRowsThatTheyAre) {
+  World world;
+  addGround(world);
+  const BodyId a = addBox(world, Vec3(0, 2, 0)), b = addBox(world, Vec3(0, 0.8f, 0));
+  world.addJoint({.body_a = a, .body_b = b, .params = BallJointParams{.anchor_point = Vec3(0, 1.4f, 0)}});
+  world.step(kDt);
+  EXPECT_TRUE(world.islandSolvers(0).direct_joints);
+  EXPECT_FALSE(world.islandSolvers(0).soft_joints);
+  for (int i = 0; i < 30; ++i) world.step(kDt);
+  EXPECT_TRUE(world.islandSolvers(0).soft_joints);
+  EXPECT_FALSE(world.islandSolvers(0).direct_joints);
+}
+
 TEST(WorldReport, SubStepsThatAreSetActLikeThoseOfTheDefinition) {
   World set = World({.substeps = 4}), made = World({.substeps = 9});
   for (World* world : {&set, &made}) addGround(*world), addBox(*world, Vec3(0, 0.6f, 0));

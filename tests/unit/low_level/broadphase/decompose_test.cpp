@@ -49,7 +49,7 @@ TEST(DecomposePairs, isSetArithmetic) {
     }
     for (const Pair& pair : changes.removed) EXPECT_LT(pair.contact_id, 5000u);
 
-    std::vector<Pair> next;
+    Vector<Pair> next;
     composePairs(changes.kept, changes.added, next);
     EXPECT_EQ(keys(next), c);
   }

@@ -53,7 +53,7 @@ TEST(ShapeTree, twoCompoundsTouchInTheSamePoints) {
   for (int i = 0; i < 20; ++i) {
     const Transform pose_a{random.vector(2.0f), random.turn()}, pose_b{random.vector(2.0f), random.turn()};
     const auto collide = [&](const Collidable& x, const Collidable& y) {
-      std::vector<ContactManifold> found;
+      Vector<ContactManifold> found;
       FoundManifolds out{found};
       MeshContactScratch scratch;
       PairCache cache;

@@ -6,15 +6,10 @@
 #include <cmath>
 #include <random>
 
+#include "tests/support/impulse_body.h"
+
 namespace pfx {
 namespace {
-
-ImpulseBody massive(float mass, float inertia) {
-  ImpulseBody body = {};
-  body.inv_mass = 1.0f / mass;
-  for (int k = 0; k < 3; ++k) body.inv_inertia[4 * k] = 1.0f / inertia;
-  return body;
-}
 
 struct SixRows {
   ImpulseJointRow row[kNumJointAxes] = {};
