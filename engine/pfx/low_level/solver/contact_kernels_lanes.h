@@ -358,7 +358,10 @@ inline Approach approachOf(const Batch& c, const ContactPointRows& p, const V8& 
   return {s, vn, sqrt(max(vn * vn - F8::set(2.0f) * fall * max(s, zero), zero))};
 }
 
-// A point is taken to hit by the same measure by which push() would stop it.
+// A point is taken to hit by the same measure by which push() would stop it. What is deeper than its way of a step did not
+// just meet the surface.
+inline constexpr float kDeepest = 4.0f;  // ways of a sub-step
+
 inline Impact findImpact(const Batch& c, const Approach (&points)[4], const ContactSolveParams& params) {
   constexpr float kEarly = 1e-3f;  // of the way of a sub-step
   const F8 zero = F8::zero(), h = F8::set(1.0f / params.inv_h), fall = F8::load(c.rows.fall);
@@ -367,7 +370,7 @@ inline Impact findImpact(const Batch& c, const Approach (&points)[4], const Cont
   for (uint32_t i = 0; i < c.rows.num_points; ++i) {
     const Approach& a = points[i];
     const F8 exists = F8::load(c.rows.points[i].normal_mass) > zero;
-    const F8 reaches = a.s + h * (a.vn + fall * h) < F8::set(kEarly) * (h * (zero - a.vn));
+    const F8 reaches = (a.s + h * (a.vn + fall * h) < F8::set(kEarly) * (h * (zero - a.vn))) & (a.s > F8::set(kDeepest) * (h * a.vn));
     const F8 hits = may & exists & (a.vn < F8::set(-params.restitution_threshold)) & reaches;
     const F8 time = F8::set(2.0f) * max(a.s, zero) / max(a.surface_speed - a.vn, F8::set(1e-30f));
     impact.time = select(hits, min(impact.time, time), impact.time);
@@ -375,6 +378,24 @@ inline Impact findImpact(const Batch& c, const Approach (&points)[4], const Cont
     impact.hits = impact.hits | hits;
   }
   return impact;
+}
+
+// The masses of rows are those of the start of the step. Here, where sweeps go on until the answer is there, they have to be
+// those of the bodies as they have turned since.
+inline F8 massNow(const Batch& c, const V8& n, const V8& arm_a, const V8& arm_b) {
+  const V8 na = cross(arm_a, n), nb = cross(arm_b, n);
+  const F8 k = effectiveMass(c, na, nb, na, nb, F8::set(1.0f));
+  return (F8::set(1.0f) / max(k, F8::set(1e-30f))) & (k > F8::zero());
+}
+
+// The same along the tangents, the one that is right for both.
+inline F8 tangentMassNow(const Batch& c, const V8& t1, const V8& t2, const V8& arm_a, const V8& arm_b) {
+  const V8 a1 = cross(arm_a, t1), a2 = cross(arm_a, t2), b1 = cross(arm_b, t1), b2 = cross(arm_b, t2);
+  const F8 one = F8::set(1.0f), half = F8::set(0.5f);
+  const F8 k11 = effectiveMass(c, a1, b1, a1, b1, one), k22 = effectiveMass(c, a2, b2, a2, b2, one);
+  const F8 twice = F8::set(2.0f) * effectiveMass(c, a1, b1, a2, b2, F8::zero()), difference = k11 - k22;
+  const F8 k = half * ((k11 + k22) + sqrt(difference * difference + twice * twice));
+  return (one / max(k, F8::set(1e-30f))) & (k > F8::zero());
 }
 
 // Friction of an impact at a point; x: its impulses along the tangents so far.
@@ -385,7 +406,7 @@ inline void rub(Batch& c, const ContactPointRows& p, const V8& n, F8 limit, F8 (
   const V8 arm_a = frictionArm(V8::load(r.center_a), V8::load(p.arm_a), spread);
   const V8 arm_b = frictionArm(V8::load(r.center_b), V8::load(p.arm_b), spread);
   const V8 v = relativeVelocity(c, arm_a, arm_b);
-  const F8 mass = smallerEigenvalue(F8::load(p.tangent_mass[0]), F8::load(p.tangent_mass[1]), F8::load(p.tangent_mass[2]));
+  const F8 mass = tangentMassNow(c, t1, t2, arm_a, arm_b);
   F8 x1 = x[0] - mass * dot(t1, v), x2 = x[1] - mass * dot(t2, v);
   const F8 length = sqrt(x1 * x1 + x2 * x2);
   const F8 scale = select(length > limit, limit / max(length, F8::set(1e-30f)), F8::set(1.0f));
@@ -405,12 +426,14 @@ inline void strike(Batch& c, const V8& n, const Impact& impact, const Approach (
       const ContactPointRows& p = c.rows.points[i];
       const Approach& a = points[i];
       const F8 then = a.s + impact.time * (a.vn + half * (fall * impact.time));
-      const F8 takes_part = impact.hits & (then < F8::set(kTogether) * (h * impact.approach));
+      const F8 way = h * impact.approach;
+      const F8 takes_part = impact.hits & (then < F8::set(kTogether) * way) & (then > zero - F8::set(kDeepest) * way);
       const F8 bounced = a.vn + (one + e) * a.surface_speed;
       const F8 wanted = select(a.vn < zero, max(bounced, zero), zero);
       const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
       const F8 vn = dot(n, relativeVelocity(c, arm_a, arm_b));
-      const F8 found = max(impulse[i] - F8::load(p.normal_mass) * (vn - wanted), zero) & takes_part;
+      const F8 exists = F8::load(p.normal_mass) > zero;
+      const F8 found = max(impulse[i] - massNow(c, n, arm_a, arm_b) * (vn - wanted), zero) & takes_part & exists;
       apply(c, (found - impulse[i]) * n, arm_a, arm_b);
       impulse[i] = found;
       rub(c, p, n, friction * found, tangent[i]);
@@ -418,19 +441,25 @@ inline void strike(Batch& c, const V8& n, const Impact& impact, const Approach (
   }
 }
 
-// Moves a body to where it would have to start to be on its new way: the old one up to the impact was another.
-inline void moveBack(const Side& side, const Velocity& before, F8 time, uint32_t writable) {
-  Motion m = loadMotion(side);
-  const F8 half = F8::set(0.5f);
-  m.dp = m.dp - time * (side.velocity.v - before.v);
-  const V8 turn = (F8::zero() - half * time) * (side.velocity.w - before.w);
-  const V8 u = m.u + m.q * turn + cross(turn, m.u);
-  const F8 q = m.q - dot(turn, m.u);
-  const F8 scale = F8::set(1.0f) / sqrt(dot(u, u) + q * q);
+// Moves a body to where it would have to start to be on its new way: the old one up to the impact was another. Its turn
+// is left: a slender body that is turned against its spin would be spun up by the ratio of its moments.
+inline void moveBack(const Side& side, const V8& velocity_before, F8 time, uint32_t writable) {
+  const Motion m = loadMotion(side);
+  const V8 dp = m.dp - time * (side.velocity.v - velocity_before);
   float* rows[8];
   for (int i = 0; i < 8; ++i) rows[i] = writable >> i & 1 ? side.bodies[i]->dp : nullptr;
-  const F8 t[8] = {m.dp.x, m.dp.y, m.dp.z, F8::zero(), scale * u.x, scale * u.y, scale * u.z, scale * q};
+  const F8 t[8] = {dp.x, dp.y, dp.z, F8::zero(), m.u.x, m.u.y, m.u.z, m.q};
   storeTransposed(t, rows);
+}
+
+// Whether any point of a batch moves towards its surface fast enough to bounce.
+inline bool approachesFast(const Batch& c, const V8& n, float threshold) {
+  F8 fastest = F8::zero();
+  for (uint32_t i = 0; i < c.rows.num_points; ++i) {
+    const ContactPointRows& p = c.rows.points[i];
+    fastest = min(fastest, dot(n, relativeVelocity(c, V8::load(p.arm_a), V8::load(p.arm_b))));
+  }
+  return anyTrue((fastest < F8::set(-threshold)) & laneMask(c.rows.bounces_in_order));
 }
 
 inline void bounce(ContactRows* rows, uint32_t count, SolverBody* bodies, const ContactSolveParams& params) {
@@ -439,15 +468,17 @@ inline void bounce(ContactRows* rows, uint32_t count, SolverBody* bodies, const 
     r.has_bounced = 0;
     if (r.bounces_in_order == 0) continue;
     Batch c(r, bodies);
+    const V8 n = V8::load(r.normal);
+    if (!approachesFast(c, n, params.restitution_threshold)) continue;
     const Motion ma = loadMotion(c.a), mb = loadMotion(c.b);
-    const V8 n = V8::load(r.normal), shift = mb.dp - ma.dp;
+    const V8 shift = mb.dp - ma.dp;
     const ContactTurn turn_a = contactTurn(ma, n, F8::load(r.turns_a)), turn_b = contactTurn(mb, n, F8::load(r.turns_b));
     Approach points[4];
     for (uint32_t i = 0; i < r.num_points; ++i) points[i] = approachOf(c, r.points[i], n, turn_a, turn_b, shift);
     const Impact impact = findImpact(c, points, params);
     if (!anyTrue(impact.hits)) continue;
     r.has_bounced = 1;
-    const Velocity before_a = c.a.velocity, before_b = c.b.velocity;
+    const V8 before_a = c.a.velocity.v, before_b = c.b.velocity.v;
     strike(c, n, impact, points, F8::set(1.0f / params.inv_h));
     c.store();
     const F8 time = impact.time & impact.hits;

@@ -7,6 +7,10 @@
 namespace pfx {
 namespace {
 
+constexpr double kPressed = 2.0;  // of the weight of the island: what carries more is pressed by something else
+constexpr double kStiffening = 8.0;
+constexpr int kMostStiffenings = 7;
+
 // Geometric stiffness counts where h^2 |K| is more than this share of the inertia, see stiffnessRatio.
 constexpr double kStiffnessShare = 0.1;
 
@@ -60,6 +64,8 @@ void NewtonIsland::addContact(const ContactConstraint& constraint) {
   c.axis[2] = c.axis[0].cross(c.axis[1]);
   const DirectBody* body[2] = {&bodies_[c.body[0]], &bodies_[c.body[1]]};
   Vec3d center[2] = {Vec3d::Zero(), Vec3d::Zero()};
+  double carried = 0.0;
+  for (int i = 0; i < m.num_points; ++i) carried += static_cast<double>(m.points[i].normal_impulse) / m.num_points;
   for (int i = 0; i < m.num_points; ++i) {
     NewtonPoint& p = c.points[i];
     p.arm[0] = body[0]->pose.orientation * m.points[i].local_a.cast<double>();
@@ -80,7 +86,7 @@ void NewtonIsland::addContact(const ContactConstraint& constraint) {
                                 inverseMassAlong(*body[side], p.turn[side][2]));
     }
     p.impulse[0] = m.points[i].normal_impulse;
-    setStiffness(p, inverse_mass, weight_ * params_.h / m.num_points);
+    setStiffness(p, inverse_mass, {weight_ * params_.h / m.num_points, carried});
     const Vec3d friction = m.points[i].friction_impulse.cast<double>();
     p.impulse[1] = friction.dot(c.axis[1]), p.impulse[2] = friction.dot(c.axis[2]);
     rowSpeeds(c, p, velocityOf(c.body[0]), velocityOf(c.body[1]), p.speed);
@@ -95,12 +101,15 @@ void NewtonIsland::addContact(const ContactConstraint& constraint) {
 }
 
 // No contact is pressed in by more than a share of the size of its bodies, even by the weight of the whole island. What
-// it carries at the moment must not decide: the load would swing with its own stiffness.
-void NewtonIsland::setStiffness(NewtonPoint& p, const double (&inverse_mass)[2], double load) const {
+// it carries at the moment must not decide, the load would swing with its own stiffness; unless it is far above that weight,
+// as under a motor, and then in large steps.
+void NewtonIsland::setStiffness(NewtonPoint& p, const double (&inverse_mass)[2], const Load& load) const {
   for (int k = 0; k < 2; ++k) p.stiffness[k] = 1.0 / (params_.give * inverse_mass[k]);
   const double size = std::min(p.arm[0].norm(), p.arm[1].norm());
   const double deepest = params_.max_overlap * size * params_.push_rate / params_.h;  // m/s, its push
-  p.stiffness[0] = std::max(p.stiffness[0], load / deepest);
+  p.stiffness[0] = std::max(p.stiffness[0], load.weight / deepest);
+  if (load.carried < kPressed * load.weight) return;
+  for (int i = 0; i < kMostStiffenings && load.carried > p.stiffness[0] * deepest; ++i) p.stiffness[0] *= kStiffening;
 }
 
 void NewtonIsland::makeStructure() {

@@ -59,7 +59,10 @@ class NewtonIsland {
   uint32_t localOf(uint32_t body) const;
   void addContact(const ContactConstraint& constraint);
   void addJoint(const JointConstraint& constraint);
-  void setStiffness(NewtonPoint& point, const double (&inverse_mass)[2], double load) const;
+  struct Load {
+    double weight, carried;  // N s on a point: were it the weight of the whole island; in the last step
+  };
+  void setStiffness(NewtonPoint& point, const double (&inverse_mass)[2], const Load& load) const;
   void makeStructure();
   void startSubstep();
   void setBias(bool push);

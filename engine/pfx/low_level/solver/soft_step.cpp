@@ -33,7 +33,7 @@ float surfaceSpeed(float approach, float separation, float acceleration) {
 }
 
 // Impacts that a body may have in a sub-step. Between bodies that are pressed together they have no end.
-constexpr int kMostImpacts = 8;
+constexpr int kMostImpacts = 4;
 
 // Rounds in which guesses are forgotten; whatever still throws a body then goes with all others.
 constexpr int kMostRounds = 4;
