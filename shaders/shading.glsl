@@ -6,6 +6,9 @@ const vec3 kSunLight = vec3(1.42, 1.26, 1.01);
 const vec3 kSkyLight = vec3(0.35, 0.41, 0.50);
 const vec3 kBounceLight = vec3(0.20, 0.165, 0.135);
 
+#ifdef NO_SHADOW
+float sunlight(vec3 position, vec3 normal) { return 1.0; }
+#else
 // Part of the sun that reaches a point: bilinear comparisons on a rotated grid, which is one smooth ramp.
 float sunlight(vec3 position, vec3 normal) {
   // Off the surface by as much as the filter reaches, against self-shadowing.
@@ -21,6 +24,7 @@ float sunlight(vec3 position, vec3 normal) {
   // Outside the map nothing throws a shadow. The map's own border is empty, so only depth needs a test.
   return p.z < 1.0 && sun.w > 0.5 ? 0.25 * lit : 1.0;
 }
+#endif
 
 vec3 diffuse(vec3 normal, vec3 albedo, float direct) {
   return albedo * (mix(kBounceLight, kSkyLight, 0.5 + 0.5 * normal.y) + direct * kSunLight);

@@ -117,7 +117,7 @@ std::vector<SceneEntry> xmlImportScenes() {
       {.sample = "11_xml_import",
        .name = "example",
        .shows = "example.xml: every kind of element, each with a comment in the file",
-       .camera = {.target = Vec3(0.0f, 1.5f, 0.0f), .distance = 18.0f, .yaw_deg = 30.0f, .pitch_deg = 22.0f},
+       .camera = {.target = Vec3(-0.8f, 1.3f, 0.5f), .distance = 14.5f, .yaw_deg = 30.0f, .pitch_deg = 18.0f},
        .frames = {0, 60, 240},
        .world = readScene(example()).world,
        .make = [] { return std::unique_ptr<Scene>(new FileScene(example())); }},

@@ -25,8 +25,7 @@ struct Walls final : Scene, AllInWorld {
                    .linear_velocity = Vec3(0.0f, 1.0f, -25.0f),
                    .shapes = {shape(Sphere{0.6f})},
                    .mass = 4.0f,
-                   .angular_damping = 1.0f,
-                   .rolling_resistance = 0.05f});
+                   .angular_damping = 3.0f});
   }
 };
 

@@ -192,7 +192,7 @@ std::vector<SceneEntry> jointScenes() {
        .name = "pulleys",
        .shows = "a rope of 32 links runs over two pulleys and does not stretch",
        .camera = {.target = Vec3(0.0f, 4.6f, 0.0f), .distance = 16.0f, .yaw_deg = 18.0f, .pitch_deg = 8.0f},
-       .frames = {0, 60, 240},
+       .frames = {0, 60, 130},
        .world = {},
        .make = make<PulleyMachine>},
   };

@@ -17,6 +17,8 @@ constexpr int kSide = 32;  // particles along each edge
 // Hangs from a rail in nine rings, with folds; the ball hangs on a cord and swings through it to and fro.
 class Curtain final : public ParticleScene {
  public:
+  Curtain() { iterations_ = 4.0f; }
+
   void build(World& world) override {
     addGround(world);
     const Vec3 ball_at(0.4f, 2.6f, 2.9f), hook_at(0.4f, 6.0f, 0.3f), ends(1.75f, 3.6f, 0.0f);
@@ -97,7 +99,7 @@ class Curtain final : public ParticleScene {
 // Falls over a ball, a box and a capsule that stand on the ground and may be pushed.
 class Drape final : public ParticleScene {
  public:
-  Drape() { damping_ = 0.8f; }
+  Drape() { damping_ = 0.8f, iterations_ = 4.0f; }
 
   void build(World& world) override {
     addGround(world);

@@ -65,7 +65,7 @@ class Hair final : public ParticleScene {
     for (const ParticleAnchor& a : p.anchors())
       root_error =
           std::max(root_error, (p.positions()[a.particle] - world.states()[a.body].pose().apply(a.local)).norm());
-    out.insert(out.begin(), {"distance of roots from the head", "m", root_error});
+    out.insert(out.begin(), {"distance of roots from the head", "m", root_error, 1e-9});
     return out;
   }
 

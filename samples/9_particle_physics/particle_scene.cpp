@@ -223,7 +223,7 @@ std::vector<Parameter> ParticleScene::parameters() {
 
 std::vector<Reading> ParticleScene::readings(const World& world) const {
   return {{"largest strain now", "%", 100.0 * particles(world).maxStrain(), strain_limit_},
-          {"largest strain so far", "%", 100.0 * worst_strain_},
+          {"largest strain so far", "%", 100.0 * worst_strain_, strain_limit_},
           {"particles", "", static_cast<double>(particles(world).positions().size())}};
 }
 

@@ -18,7 +18,8 @@ constexpr size_t kMostSegments = 240;
 
 }  // namespace
 
-ErrorPlot::ErrorPlot(const CameraPose& camera, double seconds) : seconds_(seconds) {
+ErrorPlot::ErrorPlot(const CameraPose& camera, double seconds)
+    : seconds_(seconds), width_(static_cast<size_t>(std::lround(seconds / static_cast<double>(kTimeStep)))) {
   constexpr float kDegree = kPi / 180.0f;
   const SinCos yaw = sincos(camera.yaw_deg * kDegree), pitch = sincos(camera.pitch_deg * kDegree);
   const Vec3 right(yaw.cos, 0.0f, -yaw.sin), up(-yaw.sin * pitch.sin, pitch.cos, -yaw.cos * pitch.sin);
@@ -32,15 +33,18 @@ Vec3 ErrorPlot::at(double time, double height) const {
   return middle_left_ + static_cast<float>(time) * along_ + static_cast<float>(height) * up_;
 }
 
+void ErrorPlot::add(double error) {
+  if (errors_.size() < width_) errors_.push_back(error);
+}
+
 void ErrorPlot::draw(std::string_view metric, std::string_view unit, double least, Canvas& canvas) const {
   double most = least;
   for (const double e : errors_) most = std::max(most, std::abs(e));
   const std::array<Vec3, 4> corners = {at(0, -1), at(1, -1), at(1, 1), at(0, 1)};
   for (size_t k = 0; k < 4; ++k) canvas.line(corners[k], corners[(k + 1) % 4], kFrame);
   canvas.line(at(0, 0), at(1, 0), kZero);
-  const auto width = static_cast<size_t>(std::lround(seconds_ / static_cast<double>(kTimeStep)));
-  const size_t count = std::min(errors_.size(), width), stride = count / kMostSegments + 1;
-  const auto place = [&](size_t i) { return at(static_cast<double>(i) / static_cast<double>(width), errors_[i] / most); };
+  const size_t count = errors_.size(), stride = count / kMostSegments + 1;
+  const auto place = [&](size_t i) { return at(static_cast<double>(i) / static_cast<double>(width_), errors_[i] / most); };
   for (size_t i = stride; i < count; i += stride) canvas.line(place(i - stride), place(i), kCurve);
   std::array<char, 96> text;
   std::snprintf(text.data(), text.size(), "%.*s: +-%.1e %.*s, %.3g s", static_cast<int>(metric.size()), metric.data(), most,

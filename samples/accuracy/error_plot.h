@@ -14,7 +14,7 @@ class ErrorPlot {
   // Upper right in the scene's start view, and parallel to it. `seconds` fill its width.
   ErrorPlot(const CameraPose& camera, double seconds);
 
-  void add(double error) { errors_.push_back(error); }  // of each step of kTimeStep
+  void add(double error);  // of each step of kTimeStep; those beyond its width are left out
   // The height stands for the largest error so far, of either sign, and for `least` while all are smaller.
   void draw(std::string_view metric, std::string_view unit, double least, Canvas& canvas) const;
 
@@ -23,6 +23,7 @@ class ErrorPlot {
 
   pfx::Vec3 middle_left_, along_, up_;  // m; to the right and the upper edge
   double seconds_;
+  size_t width_;  // steps
   std::vector<double> errors_;
 };
 

@@ -12,8 +12,7 @@ void addPrimitives(World& world) {
   world.addBody({.name = "sphere",
                  .pose = {.position = Vec3(-5.0f, 5.0f, 0.0f)},
                  .shapes = {shape(Sphere{1.0f})},
-                 .angular_damping = 1.0f,
-                 .rolling_resistance = 0.03f});  // as on a lawn: it rolls to a halt
+                 .angular_damping = 4.0f});  // as on a lawn: it rolls to a halt
   addBody(world, "box", Box{Vec3::Ones()}, Vec3(0.0f, 5.0f, 5.0f), 1.0f);
   addBody(world, "capsule", Capsule{1.5f, 0.5f}, Vec3(5.0f, 5.0f, 0.0f), 2.0f);
   addBody(world, "cylinder", Cylinder{0.5f, 1.5f}, Vec3(0.0f, 10.0f, 0.0f), 3.0f);

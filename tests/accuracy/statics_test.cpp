@@ -99,8 +99,8 @@ TEST(AccStatics, AStackCarriesItsWeight) {
     report("ACC-19 stack, drift to the side", r.drift, 1e-5, "m");
     EXPECT_LT(r.force, 1e-4);
     EXPECT_LT(r.overlap, 1e-3);
-    EXPECT_LT(r.speed, 1e-3);
-    EXPECT_LT(r.drift, 2e-4);  // misses its target: stacks of 10 and 30 drift by 0.12 and 0.17 mm
+    EXPECT_LT(r.speed, 1e-4);
+    EXPECT_LT(r.drift, 1e-5);
   }
 }
 
@@ -114,7 +114,7 @@ TEST(AccStatics, LightBoxesCarryAHeavyOne) {
     report("ACC-20 heavy on light, force, relative", r.force, 1e-3, "");
     report("ACC-20 heavy on light, deepest overlap", r.overlap, 5e-3, "m");
     report("ACC-20 heavy on light, drift", r.drift, 1e-3, "m");
-    EXPECT_LT(r.force, 0.2);  // misses its target: 13 % with 2 boxes and 16 % with 5, at 1 : 1000
+    EXPECT_LT(r.force, 1e-3);
     EXPECT_LT(r.overlap, 5e-3);
     EXPECT_LT(r.drift, 1e-3);
   }
@@ -250,7 +250,7 @@ TEST(AccStatics, AnOverhangFallsBeyondTheHarmonicSum) {
     const double share = 2.0 - threshold(0.9, 1.1, [&](double x) { return overhangStands(blocks, 2.0 - x); });
     std::printf("  %d blocks\n", blocks);
     report("ACC-22 overhang, farthest, relative", share - 1.0, 2e-2, "");
-    EXPECT_LT(std::abs(share - 1.0), 3e-2);  // the longer one misses its target, by 0.7 points
+    EXPECT_LT(std::abs(share - 1.0), 2.2e-2);  // the longer one misses its target, by 0.1 points
   }
 }
 

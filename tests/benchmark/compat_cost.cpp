@@ -1,5 +1,6 @@
 // The documented pipeline twice: `compat_cost compat` calls the stages of physics_effects.h, `compat_cost native` does the
 // same work with the engine's own functions and records. tests/benchmark/compat_cost.py counts the instructions of both.
+#include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -15,7 +16,7 @@ using namespace sce::PhysicsEffects;
 
 namespace {
 
-constexpr int kBoxes = 64, kIterations = 5, kVisits = 2;
+constexpr int kBoxes = 64, kIterations = 5, kVisits = 2, kPushVisits = 2;
 constexpr float kStep = 0.016f;
 
 // Boxes that rest on a floor, each touching it alone; pairs and contacts are found once.
@@ -133,6 +134,16 @@ void solveNatively(NativeWorld& w) {
       for (int visit = 0; visit < kVisits; ++visit)
         for (int k = 0; k < m.count; ++k) pfx::solveImpulses(pair, 0.6f, m.impulses[k]);
     });
+  }
+  const auto overlaps = [](const NativeWorld::Manifold& m) {
+    return std::any_of(m.impulses, m.impulses + m.count, [](const pfx::ImpulsePoint& p) { return p.push_rhs > 0.0f; });
+  };
+  if (std::any_of(w.manifolds.begin(), w.manifolds.end(), overlaps)) {
+    for (int it = 0; it < kPushVisits * kIterations; ++it) {
+      each([](pfx::ImpulsePair pair, NativeWorld::Manifold& m) {
+        for (int k = 0; k < m.count; ++k) pfx::solvePush(pair, 0.6f, m.impulses[k]);
+      });
+    }
   }
   for (size_t i = 1; i < w.states.size(); ++i) {
     w.states[i].linear_velocity += Eigen::Map<pfx::Vec3>(w.bodies[i].dv);

@@ -3,9 +3,12 @@
 
 #include <cstdio>
 #include <cstdlib>
+#include <fstream>
+#include <sstream>
 #include <string>
 #include <vector>
 
+#include "tests/compat/foreign_scene.h"
 #include "tests/compat/scene.h"
 
 using namespace compat_tests;
@@ -233,6 +236,42 @@ TEST_F(CompatSerialize, MissingFilesFunctionsAndArraysAreErrors) {
   EXPECT_NE(pfxSerializeWrite(file_, numbersWithoutArrays), SCE_PFX_OK);
   std::rewind(file_);
   EXPECT_NE(pfxSerializeRead(file_, numbersWithoutArrays), SCE_PFX_OK);
+}
+
+// The file was written by tests/support/compat_foreign_writer.cpp, compiled for a machine that puts the highest byte first.
+TEST(CompatSerializeForeign, C7_04AFileOfAMachineOfTheOtherByteOrderIsTheSame) {
+  std::ifstream in(std::string(VITRINE_SOURCE_DIR) + "/tests/compat/data/big_endian.txt");
+  std::stringstream text;
+  text << in.rdbuf();
+  ForeignScene here, loaded;
+  ASSERT_EQ(here.create(), SCE_PFX_OK);
+  char* written = nullptr;
+  size_t bytes = 0;
+  std::FILE* memory = open_memstream(&written, &bytes);
+  ASSERT_EQ(writeForeignScene(memory, here), SCE_PFX_OK);
+  std::fclose(memory);
+  EXPECT_EQ(text.str(), std::string(written, bytes));
+  std::free(written);
+
+  std::string file = text.str();
+  std::FILE* foreign = fmemopen(file.data(), file.size(), "r");
+  foreignScene() = &loaded;
+  ASSERT_EQ(pfxSerializeRead(foreign, setForeignBuffers), SCE_PFX_OK);
+  std::fclose(foreign);
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) {
+      EXPECT_EQ(loaded.states[i].getPosition()[k], here.states[i].getPosition()[k]);
+      EXPECT_EQ(loaded.states[i].getLinearVelocity()[k], here.states[i].getLinearVelocity()[k]);
+    }
+    EXPECT_EQ(loaded.states[i].getContactFilterSelf(), 0x12345678u);
+    EXPECT_EQ(loaded.states[i].getMotionType(), here.states[i].getMotionType());
+    EXPECT_EQ(loaded.bodies[i].getFriction(), 0.1f);
+    EXPECT_EQ(loaded.collidables[i].getNumShapes(), here.collidables[i].getNumShapes());
+  }
+  EXPECT_EQ(loaded.large.m_numFacets, 2u);
+  EXPECT_EQ(loaded.convex.m_numVerts, 4);
+  EXPECT_EQ(loaded.joint.m_constraints[3].m_movableUpperLimit, 0.7f);
+  EXPECT_EQ(loaded.contact.getContactPoint(0).m_distance, -0.01f);
 }
 
 }  // namespace

@@ -1,7 +1,10 @@
 // Chapter 3: types, vector math, task manager. Written as the users of the overview write it.
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdlib>
+#include <cstring>
+#include <thread>
 #include <type_traits>
 #include <vector>
 
@@ -67,6 +70,73 @@ TEST(CompatTypes, RotationsAgreeInAllTheirForms) {
     EXPECT_NEAR((affineInverse(m4) * (m4 * PfxPoint3(v)))[k], v[k], 1e-5f);
   }
   EXPECT_NEAR(determinant(m), 1.0f, 1e-6f);
+}
+
+TEST(CompatTypes, InversesUndoAndSignsAndRootsGoByElement) {
+  PfxMatrix4 m(PfxQuat::rotationX(0.4f), PfxVector3(1, 2, 3));
+  m.setElem(1, 3, 0.25f).setElem(3, 3, 2.0f);  // a projection too
+  const PfxMatrix4 one = m * inverse(m);
+  for (int c = 0; c < 4; ++c)
+    for (int r = 0; r < 4; ++r) EXPECT_NEAR(one[c][r], c == r ? 1.0f : 0.0f, 1e-6f);
+  const PfxVector3 signs = copySignPerElem(PfxVector3(1, 2, 3), PfxVector3(-5, 5, -5));
+  EXPECT_TRUE(signs[0] == -1.0f && signs[1] == 2.0f && signs[2] == -3.0f);
+  EXPECT_FLOAT_EQ(rsqrtPerElem(PfxVector3(4.0f))[1], 0.5f);
+  EXPECT_EQ(PfxVector4(PfxQuat(1, 2, 3, 4))[3], 4.0f);
+  EXPECT_EQ((PfxVector3(1, 0, 0) + PfxPoint3(2, 0, 0)).getX(), 3.0f);
+}
+
+TEST(CompatTypes, MacrosStandWhereTheOldOnesStood) {
+  SCE_PFX_ALIGNED(128) static char before[3];
+  static SCE_PFX_ALIGNED(128) char between[3];
+  static char behind[3] SCE_PFX_ALIGNED(128);
+  for (const char* p : {before, between, behind}) EXPECT_TRUE(SCE_PFX_PTR_IS_ALIGNED128(p));
+  PfxInt32 a = 1, b = 2;
+  SCE_PFX_SWAP(PfxInt32, a, b);
+  EXPECT_TRUE(a == 2 && b == 1);
+  PfxRigidState state;
+  const PfxUInt8 type = kPfxMotionTypeKeyframe;  // as read from a table
+  state.setMotionType(type);
+  EXPECT_EQ(state.getMotionType(), kPfxMotionTypeKeyframe);
+}
+
+TEST(CompatHeapManager, GivesBackInReverseOrderAndRefusesWhatDoesNotFit) {
+  SCE_PFX_ALIGNED(128) static unsigned char buffer[1024];
+  PfxHeapManager pool(buffer, sizeof buffer);
+  const int rest = pool.getRest();
+  void* a = pool.allocate(100);
+  void* b = pool.allocate(1, 128);
+  EXPECT_TRUE(SCE_PFX_PTR_IS_ALIGNED16(a) && SCE_PFX_PTR_IS_ALIGNED128(b));
+  EXPECT_GE(static_cast<unsigned char*>(b), static_cast<unsigned char*>(a) + 100);
+  const int held = pool.getAllocated();
+  EXPECT_EQ(held + pool.getRest(), 1024);
+  EXPECT_EQ(pool.allocate(1024), nullptr);
+  EXPECT_EQ(pool.allocate(~size_t(0)), nullptr);
+  EXPECT_EQ(pool.getAllocated(), held);
+  void* c = pool.allocate(static_cast<size_t>(pool.getRest()) - 32);
+  ASSERT_NE(c, nullptr);
+  std::memset(c, 0xff, static_cast<size_t>(static_cast<unsigned char*>(buffer) + 1024 - static_cast<unsigned char*>(c)) - 32);
+  pool.deallocate(c), pool.deallocate(b);
+  EXPECT_EQ(pool.allocate(1, 128), b);
+  pool.deallocate(b), pool.deallocate(nullptr), pool.deallocate(a);
+  EXPECT_EQ(pool.getRest(), rest);
+  pool.allocate(500), pool.clear();
+  EXPECT_EQ(pool.getAllocated(), 0);
+}
+
+TEST(CompatPerfCounter, SectionsLieBetweenEvenAndOddMarks) {
+  PfxPerfCounter perf;
+  perf.countBegin("one"), perf.countEnd();
+  perf.countBegin("two");
+  std::this_thread::sleep_for(std::chrono::milliseconds(2));
+  perf.countEnd();
+  EXPECT_EQ(perf.getNumMarks(), 4);
+  EXPECT_GE(perf.getCountTime(2), 2.0f);
+  EXPECT_LT(perf.getCountTime(0), perf.getCountTime(2));
+  EXPECT_EQ(perf.getCountTime(3), 0.0f);
+  for (int i = 0; i < 100; ++i) perf.countBegin("more");
+  EXPECT_EQ(perf.getNumMarks(), PfxPerfCounter::kMaxMarks);
+  perf.resetCount();
+  EXPECT_EQ(perf.getCountTime(0), 0.0f);
 }
 
 TEST(CompatTypes, ErrorCodesAreNegativeAndDistinct) {

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <fstream>
 #include <limits>
+#include <memory_resource>
 #include <sstream>
 
 #include "pfx/util/state_hash/state_hash.h"
@@ -315,6 +316,42 @@ TEST(Serialize, LineEndsOfOtherPlatformsDoNotMatter) {
   std::string text;
   for (const char c : written(s)) text += c == '\n' ? std::string("\r\n") : std::string(1, c);
   EXPECT_EQ(readText(text).error, SerializeError::Ok);
+}
+
+// Counts what is taken and given back.
+class CountedMemory : public std::pmr::memory_resource {
+ public:
+  size_t bytes = 0, most = 0;
+
+ private:
+  void* do_allocate(size_t size, size_t alignment) override {
+    bytes += size, most = std::max(most, bytes);
+    return std::pmr::new_delete_resource()->allocate(size, alignment);
+  }
+  void do_deallocate(void* place, size_t size, size_t alignment) override {
+    bytes -= size;
+    std::pmr::new_delete_resource()->deallocate(place, size, alignment);
+  }
+  bool do_is_equal(const memory_resource& other) const noexcept override { return this == &other; }
+};
+
+// C7-19, C7-20 without the overview's names: the memory of large meshes is the default resource's, and is given back with
+// the array that the application read them into.
+TEST(Serialize, MeshesThatAreReadTakeTheMemoryThatTheApplicationNames) {
+  const std::string text = written(*sampleArrays("2_stable/landscape", 0));
+  CountedMemory memory;
+  std::pmr::memory_resource* before = std::pmr::set_default_resource(&memory);
+  {
+    SceneVectors loaded;
+    const TextFile file(text);
+    EXPECT_EQ(serializeRead(file.get(), readCalls(loaded)), SerializeError::Ok);
+    ASSERT_EQ(loaded.large_meshes.size(), 1u);
+    // 128 triangles: vertices, facets and the hierarchy over them.
+    EXPECT_GT(memory.bytes, 128u * 16u);
+  }
+  std::pmr::set_default_resource(before);
+  EXPECT_EQ(memory.bytes, 0u);
+  EXPECT_GT(memory.most, 0u);
 }
 
 // The file was written by foreign_writer.cpp, compiled for a machine of 64 bits that puts the highest byte

@@ -1,4 +1,5 @@
 // Chapter 7: a scene is written through the callbacks, changed, and read back; a damaged file says where it is damaged.
+// `files FILE` keeps the scene for viewer.cpp.
 #include <cmath>
 #include <cstring>
 
@@ -43,7 +44,7 @@ static void error(PfxInt32 code, const char* const* tags, PfxUInt32 numTags) {
   for (PfxUInt32 i = 0; i < numTags; i++) CHECK(std::strlen(tags[i]) > 0);
 }
 
-int main() {
+int main(int argc, char** argv) {
   for (PfxUInt16 i = 0; i < NUM_RIGIDBODIES; i++) {
     PfxShape shape;
     shape.reset();
@@ -63,7 +64,7 @@ int main() {
   funcs.initFunc = init;
   funcs.termFunc = term;
   funcs.errorFunc = error;
-  std::FILE* file = std::tmpfile();
+  std::FILE* file = argc > 1 ? std::fopen(argv[1], "w+") : std::tmpfile();
   CHECK(pfxSerializeWrite(file, funcs) == SCE_PFX_OK);
   std::fputs("behind", file);  // the file stays open
 

@@ -30,7 +30,9 @@ static const PfxFloat timeStep = 0.016f;
 static PfxShape compoundShapes[3];
 static PfxUInt16 compoundShapeIds[3] = {0, 1, 2};
 
-static void* allocate(PfxUInt32 bytes) { return SCE_PFX_UTIL_ALLOC(16, bytes); }
+SCE_PFX_ALIGNED(128) static unsigned char poolBuff[256 * 1024];
+static PfxHeapManager pool(poolBuff, sizeof(poolBuff));
+static PfxPerfCounter perf;
 
 static void placeBody(PfxUInt16 id, const PfxVector3& position, ePfxMotionType type, PfxFloat mass) {
   bodies[id].reset();
@@ -97,16 +99,16 @@ static void broadphase() {
   }
   {
     PfxUInt32 workBytes = sizeof(PfxBroadphaseProxy) * NUM_RIGIDBODIES;
-    void* workBuff = allocate(workBytes);
+    void* workBuff = pool.allocate(workBytes);
     CHECK(pfxParallelSort(proxies, NUM_RIGIDBODIES, workBuff, workBytes) == SCE_PFX_OK);
-    SCE_PFX_UTIL_FREE(workBuff);
+    pool.deallocate(workBuff);
   }
   {
     PfxFindPairsParam param;
     param.workBytes = pfxGetWorkBytesOfFindPairs(NUM_CONTACTS);
-    param.workBuff = allocate(param.workBytes);
+    param.workBuff = pool.allocate(param.workBytes);
     param.pairBytes = pfxGetPairBytesOfFindPairs(NUM_CONTACTS);
-    param.pairBuff = allocate(param.pairBytes);
+    param.pairBuff = pool.allocate(param.pairBytes);
     param.proxies = proxies;
     param.numProxies = NUM_RIGIDBODIES;
     param.maxPairs = NUM_CONTACTS;
@@ -115,15 +117,15 @@ static void broadphase() {
     CHECK(pfxFindPairs(param, result) == SCE_PFX_OK);
     std::memcpy(currentPairs, result.pairs, sizeof(PfxBroadphasePair) * result.numPairs);
     numCurrentPairs = result.numPairs;
-    SCE_PFX_UTIL_FREE(param.workBuff);
-    SCE_PFX_UTIL_FREE(param.pairBuff);
+    pool.deallocate(param.pairBuff);
+    pool.deallocate(param.workBuff);
   }
   {
     PfxDecomposePairsParam param;
     param.pairBytes = pfxGetPairBytesOfDecomposePairs(numPreviousPairs, numCurrentPairs);
-    param.pairBuff = allocate(param.pairBytes);
+    param.pairBuff = pool.allocate(param.pairBytes);
     param.workBytes = pfxGetWorkBytesOfDecomposePairs(numPreviousPairs, numCurrentPairs);
-    param.workBuff = allocate(param.workBytes);
+    param.workBuff = pool.allocate(param.workBytes);
     param.previousPairs = previousPairs;
     param.numPreviousPairs = numPreviousPairs;
     param.currentPairs = currentPairs;
@@ -139,14 +141,14 @@ static void broadphase() {
     numCurrentPairs = 0;
     for (PfxUInt32 i = 0; i < result.numOutKeepPairs; i++) currentPairs[numCurrentPairs++] = result.outKeepPairs[i];
     for (PfxUInt32 i = 0; i < result.numOutNewPairs; i++) currentPairs[numCurrentPairs++] = result.outNewPairs[i];
-    SCE_PFX_UTIL_FREE(param.workBuff);
-    SCE_PFX_UTIL_FREE(param.pairBuff);
+    pool.deallocate(param.workBuff);
+    pool.deallocate(param.pairBuff);
   }
   {
     PfxUInt32 workBytes = sizeof(PfxBroadphasePair) * NUM_CONTACTS;
-    void* workBuff = allocate(workBytes);
+    void* workBuff = pool.allocate(workBytes);
     CHECK(pfxParallelSort(currentPairs, numCurrentPairs, workBuff, workBytes) == SCE_PFX_OK);
-    SCE_PFX_UTIL_FREE(workBuff);
+    pool.deallocate(workBuff);
   }
 }
 
@@ -204,7 +206,7 @@ static void constraintSolver() {
 
   PfxSolveConstraintsParam param;
   param.workBytes = pfxGetWorkBytesOfSolveConstraints(NUM_RIGIDBODIES, numPairs[pairSwap], NUM_JOINTS);
-  param.workBuff = allocate(param.workBytes);
+  param.workBuff = pool.allocate(param.workBytes);
   param.contactPairs = pairs[pairSwap];
   param.numContactPairs = numPairs[pairSwap];
   param.offsetContactManifolds = contacts;
@@ -216,7 +218,7 @@ static void constraintSolver() {
   param.numRigidBodies = NUM_RIGIDBODIES;
   param.iteration = 5;
   CHECK(pfxSolveConstraints(param) == SCE_PFX_OK);
-  SCE_PFX_UTIL_FREE(param.workBuff);
+  pool.deallocate(param.workBuff);
 }
 
 int main() {
@@ -238,9 +240,17 @@ int main() {
       PfxVector3 gravity = bodies[i].getMass() * PfxVector3(0.0f, -9.8f, 0.0f);
       CHECK(pfxApplyExternalForce(states[i], bodies[i], gravity, PfxVector3(0.0f), timeStep) == SCE_PFX_OK);
     }
+    perf.resetCount();
+    perf.countBegin("broadphase");
     broadphase();
+    perf.countEnd();
+    perf.countBegin("collision");
     collision();
+    perf.countEnd();
+    perf.countBegin("solver");
     constraintSolver();
+    perf.countEnd();
+    CHECK(pool.getAllocated() == 0);
     PfxUpdateRigidStatesParam update;
     update.states = states;
     update.bodies = bodies;
@@ -253,6 +263,8 @@ int main() {
   for (int i = 1; i < 6; i++) CHECK(length(states[i].getPosition() - PfxVector3(0.0f, 0.5f + 1.0f * (i - 1), 0.0f)) < 0.05f);
   CHECK(std::fabs(states[6].getPosition()[1] - 0.5f) < 0.01f);
   CHECK(stretch < 0.02f);
+  CHECK(perf.getCountTime(0) > 0.0f && perf.getCountTime(2) > 0.0f && perf.getCountTime(4) > 0.0f);
+  perf.printCount();
   std::printf("a column of five boxes ends %.2f mm off, the pendulum is stretched by %.2f mm at most\n",
               1e3 * (double)length(states[5].getPosition() - PfxVector3(0.0f, 4.5f, 0.0f)), 1e3 * (double)stretch);
   return failures == 0 ? 0 : 1;

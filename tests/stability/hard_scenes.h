@@ -67,24 +67,23 @@ inline double deepest(const World& world) {
   return static_cast<double>(depth);
 }
 
-// Runs a world and watches it. `from`: seconds after which speeds count.
+// Runs a world and watches it, in steps of `step` seconds. `from`: seconds after which speeds count.
 class Watch {
  public:
-  explicit Watch(World& world) : world_(world), start_(world.states().begin(), world.states().end()) {}
+  explicit Watch(World& world, float step = kStep)
+      : world_(world), step_(step), start_(world.states().begin(), world.states().end()) {}
 
   void run(double seconds, double from = 0.0) {
-    const int steps = static_cast<int>(seconds * 60.0 + 0.5);
-    for (int i = 0; i < steps; ++i) {
-      world_.step(kStep);
-      if (i >= static_cast<int>(from * 60.0)) look();
+    for (int i = 0; i < stepsOf(seconds); ++i) {
+      world_.step(step_);
+      if (i >= stepsOf(from)) look();
     }
     finish();
   }
   // Whether no body has moved by more than `limit`; gives up early.
   bool stands(double seconds, double limit) {
-    const int steps = static_cast<int>(seconds * 60.0 + 0.5);
-    for (int i = 0; i < steps; ++i) {
-      world_.step(kStep);
+    for (int i = 0; i < stepsOf(seconds); ++i) {
+      world_.step(step_);
       if (i % 20 != 19) continue;
       finish();
       if (!(seen.drift < limit)) return false;
@@ -95,6 +94,7 @@ class Watch {
   Standing seen;
 
  private:
+  int stepsOf(double seconds) const { return static_cast<int>(seconds / static_cast<double>(step_) + 0.5); }
   void look() {
     seen.penetration = std::max(seen.penetration, deepest(world_));
     for (const RigidState& s : world_.states())
@@ -113,6 +113,7 @@ class Watch {
   }
 
   World& world_;
+  float step_;  // s
   std::vector<RigidState> start_;
 };
 

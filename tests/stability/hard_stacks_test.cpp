@@ -59,6 +59,37 @@ TEST(HardStacks, ATonneStandsOnFourBoxesOfAKilogram) {
   }
 }
 
+// HARD-01 to HARD-03 at half the rate with half the sub-steps.
+TEST(HardStacks, StandAtThirtyHertzWithTwoSubSteps) {
+  const auto watched = [](const std::function<void(World&)>& fill, double seconds, double from) {
+    WorldDef def = hardDef();
+    def.substeps = 2;
+    World world(def);
+    addFloor(world);
+    fill(world);
+    Watch watch(world, 1.0f / 30.0f);
+    watch.run(seconds, from);
+    return watch.seen;
+  };
+  const Standing tower = watched([](World& w) { addColumn(w, equalBoxes(50)); }, 60.0, 10.0);
+  report("HARD-01 at 30 Hz x 2: drift", tower.drift, 5e-3, "m");
+  report("HARD-01 at 30 Hz x 2: deepest overlap", tower.penetration, 2e-3, "m");
+  report("HARD-01 at 30 Hz x 2: speed after 10 s", tower.speed, 1e-3, "m/s");
+  EXPECT_LT(tower.drift, 5e-3);
+  EXPECT_LT(tower.penetration, 2e-3);
+  EXPECT_LT(tower.speed, 1e-3);
+  for (const auto& [count, mass] : {std::pair{5, 1000.0}, {10, 100.0}}) {
+    const Standing heavy = watched([&](World& w) { addColumn(w, withTop(count, mass)); }, 30.0, 0.0);
+    report("HARD-02 at 30 Hz x 2: drift", heavy.drift, 1e-2, "m");
+    report("HARD-02 at 30 Hz x 2: deepest overlap", heavy.penetration, 1e-2, "m");
+    EXPECT_LT(heavy.drift, 1e-2);
+    EXPECT_LT(heavy.penetration, 1e-2);
+  }
+  const Standing plates = watched([](World& w) { addInvertedPyramid(w, 8); }, 20.0, 0.0);
+  report("HARD-03 at 30 Hz x 2: tilt", plates.tilt * 180.0 / M_PI, 0.5, "deg");
+  EXPECT_LT(plates.tilt * 180.0 / M_PI, 0.5);
+}
+
 TEST(HardStacks, TheLargestStandingRatioIsTenThousand) {
   const double ratio = margin({1e2, 3e2, 1e3, 3e3, 1e4, 3e4, 1e5, 3e5, 1e6},
                               [](double mass) { return columnStands(withTop(5, mass), 10.0); });

@@ -40,6 +40,27 @@ TEST(UiInput, APressAndReleaseInOneFrameAreBothSeen) {
   EXPECT_FALSE(input.waiting());
 }
 
+TEST(UiInput, WhatIsTypedAfterTheShortcutOfAFieldWaitsUntilTheFieldHasTheKeyboard) {
+  UiInput input;
+  WindowInput window;
+  window.keys = {{'O', true, false, true, false, false}, {'2', true, false, false, false, false}};
+  window.characters = {'2'};
+  input.add(window);
+  const UiInput::Frame shortcut = input.next();
+  EXPECT_TRUE(shortcut.isDown('O'));
+  EXPECT_FALSE(shortcut.isDown('2')) << "it would be taken for a shortcut of its own";
+  input.keepTyping(2);
+  for (int i = 0; i < 2; ++i) {
+    const UiInput::Frame kept = input.next();
+    EXPECT_TRUE(kept.keys.empty() && kept.characters.empty());
+    EXPECT_TRUE(input.waiting());
+  }
+  const UiInput::Frame typed = input.next();
+  EXPECT_TRUE(typed.isDown('2'));
+  EXPECT_EQ(typed.characters, std::vector<uint32_t>{'2'});
+  EXPECT_FALSE(input.waiting());
+}
+
 TEST(UiInput, AClickIsSeenWhereItWasMadeThoughTheMouseHasMovedOn) {
   UiInput input;
   WindowInput window;

@@ -88,6 +88,8 @@ TEST(MeshFacts, TheTriangleBelowABallNamesTheBall) {
     const Json triangle = toJson(triangleFacts(w.world, w.ground.index, facet));
     EXPECT_EQ(triangle["island"], contact["island"]);
     EXPECT_EQ(triangle["contacts"][0]["body"]["index"], w.ball.index);
+    const std::vector<uint32_t> touched = touchedTriangles(w.world, w.world.contactPairs().front());
+    EXPECT_TRUE(std::binary_search(touched.begin(), touched.end(), facet));
     // The point of contact lies on the triangle, a radius away from the ball (slack: what the ball sank in).
     const Json& p = contact["position"];
     const Vec3 point(p[0].get<float>(), p[1].get<float>(), p[2].get<float>());
@@ -160,6 +162,9 @@ TEST(IslandFacts, TellWhichBodyKeepsAStackAwake) {
   EXPECT_NE(explainSleep(world, 0).why.find("has been slow for"), std::string::npos);
   world.state(top).can_sleep = false;
   EXPECT_EQ(explainSleep(world, 0).why, "awake: top #2 may not sleep");
+  for (int i = 0; i < 10; ++i) world.step(1.0f / 60.0f);
+  EXPECT_EQ(world.states()[1].sleep_count, 10u);
+  EXPECT_EQ(world.island(0).sleep_timer, 0.0f) << "of the body that keeps it awake, not of the first one";
   world.state(top).can_sleep = true;
   world.state(top).angular_velocity = Vec3(0, 2, 0);
   EXPECT_NE(explainSleep(world, 0).why.find("top #2 moves with"), std::string::npos);

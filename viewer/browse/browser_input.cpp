@@ -16,6 +16,7 @@ bool isSteeringKey(int key) {
   return key == 'W' || key == 'A' || key == 'S' || key == 'D' || key == key::kSpace;
 }
 
+constexpr int kFramesToFocus = 2;     // until a field that was asked for has the keyboard
 constexpr float kThrowSpeed = 25.0f;  // m/s
 
 pfx::Aabb bodyBounds(const pfx::World& world, uint32_t body) {
@@ -177,6 +178,7 @@ void Browser::execute(BrowseCommand command) {
       break;
     case BrowseCommand::Find:
       settings_.show_ui = list_state_.focus_filter = true;
+      input_.keepTyping(kFramesToFocus);
       break;
     case BrowseCommand::Throw:
       throwBall();

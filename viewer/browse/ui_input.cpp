@@ -25,8 +25,10 @@ void UiInput::add(const WindowInput& input) {
 const UiInput::Frame& UiInput::next() {
   frame_.keys.clear();
   frame_.buttons.clear();
-  frame_.characters.swap(characters_);
-  characters_.clear();
+  frame_.characters.clear();
+  const bool kept = kept_frames_ > 0;
+  kept_frames_ -= kept;
+  if (!kept) frame_.characters.swap(characters_);
 
   // A button acts where the mouse was in that moment, wherever it has gone since.
   frame_.mouse_x = buttons_.empty() ? mouse_x_ : buttons_.front().x;
@@ -39,9 +41,11 @@ const UiInput::Frame& UiInput::next() {
     buttons_.pop_front();
   }
   changed.clear();
-  while (!keys_.empty() && changed.insert(keys_.front().key).second) {
+  bool shortcut = false;
+  while (!kept && !shortcut && !keys_.empty() && changed.insert(keys_.front().key).second) {
     const KeyEvent& e = keys_.front();
     frame_.down[e.key] = e.down;
+    shortcut = e.down && e.control;
     frame_.keys.push_back(e);
     keys_.pop_front();
   }
@@ -50,6 +54,11 @@ const UiInput::Frame& UiInput::next() {
   frame_.shift = either(key::kLeftShift, key::kRightShift);
   frame_.alt = either(key::kLeftAlt, key::kRightAlt);
   return frame_;
+}
+
+void UiInput::keepTyping(int frames) {
+  kept_frames_ = frames;
+  characters_.insert(characters_.begin(), frame_.characters.begin(), frame_.characters.end());
 }
 
 void UiInput::endFrame() { frame_.wheel_x = frame_.wheel_y = 0.0f; }

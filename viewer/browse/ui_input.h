@@ -28,17 +28,20 @@ class UiInput {
     bool isDown(int key) const { return down.contains(key) && down.at(key); }
     std::map<int, bool> down;  // keys after this frame's events
   };
-  // The next frame: every button and key changes at most once in it.
+  // The next frame: every button and key changes at most once in it, and a key that came with Ctrl is its last one.
   const Frame& next();
+  // Keeps what is typed, that of this frame included, for so many frames: until a field that was asked for has the keyboard.
+  void keepTyping(int frames);
   // The wheel's turns were used.
   void endFrame();
 
-  bool waiting() const { return !keys_.empty() || !buttons_.empty(); }
+  bool waiting() const { return !keys_.empty() || !buttons_.empty() || !characters_.empty(); }
 
  private:
   std::deque<KeyEvent> keys_;
   std::deque<ButtonEvent> buttons_;
   std::vector<uint32_t> characters_;
+  int kept_frames_ = 0;                      // frames that keys and characters still wait
   float mouse_x_ = -1.0f, mouse_y_ = -1.0f;  // px, where it is now
   Frame frame_;
 };

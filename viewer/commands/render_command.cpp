@@ -15,13 +15,17 @@ struct Options {
   std::string target, frames, size = "640x360", overlays, camera, backend = "auto", quality = "ci", out;
 };
 
+Quality qualityOf(const std::string& name) {
+  return name == "hero" ? Quality::Hero : name == "window" ? Quality::Window : Quality::Ci;
+}
+
 int render(const Options& options) {
   const PixelSize size = parseSize(options.size);
   CaptureSettings settings{.backend = requireBackend(options.backend),
                            .width = size.width,
                            .height = size.height,
                            .overlays = parseOverlays(options.overlays),
-                           .quality = options.quality == "hero" ? Quality::Hero : Quality::Ci};
+                           .quality = qualityOf(options.quality)};
   std::vector<SceneSpec> scenes = findTarget(allScenes(), options.target);
   size_t total = 0;
   for (SceneSpec& s : scenes) {
@@ -55,8 +59,8 @@ void addRenderCommand(CLI::App& app, Action& action) {
   command->add_option("--camera", options->camera,
                       "For example yaw=30,pitch=20,distance=12,target=0/1/0 (degrees, m)");
   command->add_option("--backend", options->backend, "auto, osmesa, egl or glfw")->capture_default_str();
-  command->add_option("--quality", options->quality, "ci or hero")
-      ->check(CLI::IsMember({"ci", "hero"}))
+  command->add_option("--quality", options->quality, "ci, window or hero")
+      ->check(CLI::IsMember({"ci", "window", "hero"}))
       ->capture_default_str();
   command->add_option("--out", options->out, "Folder to write into")->required();
   command->callback([&action, options] { action = [options] { return render(*options); }; });

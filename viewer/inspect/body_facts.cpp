@@ -123,6 +123,9 @@ FactSheet bodyFacts(const World& world, uint32_t body) {
   f.add("friction", b.friction);
   f.add("restitution", b.restitution);
   f.add("rolling_resistance", b.rolling_resistance, "m");
+  const pfx::Surface surface = world.surface(body);
+  f.add("torsional_resistance", surface.torsional_resistance, "m");
+  f.add("surface_velocity", vectorJson(surface.velocity), "m/s, body axes");
   f.add("linear_damping", b.linear_damping, "1/s");
   f.add("angular_damping", b.angular_damping, "1/s");
   f.add("gravity_scale", b.gravity_scale);

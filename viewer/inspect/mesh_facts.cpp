@@ -103,6 +103,19 @@ std::optional<PlacedMesh> meshOfBody(const World& world, uint32_t body) {
   return std::nullopt;
 }
 
+std::vector<uint32_t> touchedTriangles(const World& world, const pfx::Pair& pair) {
+  std::vector<uint32_t> touched;
+  for (const uint32_t body : {pair.body_a, pair.body_b})
+    if (const auto placed = meshOfBody(world, body))
+      for (const pfx::ContactManifold& m : world.manifolds(pair))
+        for (int k = 0; k < m.num_points; ++k)
+          if (const uint32_t facet = m.points[size_t(k)].triangle; facet < placed->mesh->numFacets())
+            touched.push_back(facet);
+  std::sort(touched.begin(), touched.end());
+  touched.erase(std::unique(touched.begin(), touched.end()), touched.end());
+  return touched;
+}
+
 std::optional<uint32_t> pickTriangle(const PlacedMesh& placed, const Ray& ray) {
   const pfx::LocalRay local = pfx::toLocal(
       {.start = ray.origin, .direction = ray.direction, .facet_mode = pfx::FacetMode::Both}, placed.pose);

@@ -20,6 +20,9 @@ struct Ray {
 };
 std::optional<uint32_t> pickTriangle(const PlacedMesh& placed, const Ray& ray);
 
+// Triangles of a large mesh that hold the contact points of a pair, ascending; empty for other shapes.
+std::vector<uint32_t> touchedTriangles(const pfx::World& world, const pfx::Pair& pair);
+
 // Children to take from the root down to the leaf that holds a facet; empty for a mesh without hierarchy.
 struct BvhStep {
   uint32_t node, child;

@@ -1,5 +1,7 @@
 #include "viewer/panels/fact_table.h"
 
+#include <algorithm>
+
 namespace viewer {
 namespace {
 
@@ -14,6 +16,14 @@ bool link(const std::string& text) {
   ImGui::PopStyleColor();
   if (ImGui::IsItemHovered()) ImGui::SetMouseCursor(ImGuiMouseCursor_Hand);
   return ImGui::IsItemClicked();
+}
+
+// Where the line of a triangle leads, in a sheet that names its mesh.
+std::optional<Selection> triangleOf(const pfx::World& world, const FactSheet& sheet, const Fact& fact) {
+  if (fact.key != "triangle") return std::nullopt;
+  const auto mesh = std::find_if(sheet.facts.begin(), sheet.facts.end(), [](const Fact& f) { return f.key == "mesh"; });
+  if (mesh == sheet.facts.end()) return std::nullopt;
+  return selectTriangle(world, mesh->value["index"].get<uint32_t>(), fact.value.get<uint32_t>());
 }
 
 // Lists of numbers get a line a row, so that nothing runs out of the panel.
@@ -46,7 +56,9 @@ std::optional<Selection> factTable(const char* id, const pfx::World& world, cons
       ImGui::TextUnformatted(labelOf(fact).c_str());
       if (*fact.unit && ImGui::IsItemHovered()) ImGui::SetTooltip("%s", fact.unit + (*fact.unit == ','));
       ImGui::TableNextColumn();
-      if (!isReference(fact.value)) {
+      if (const auto triangle = triangleOf(world, sheet, fact)) {
+        if (link(valueText(fact))) chosen = triangle;
+      } else if (!isReference(fact.value)) {
         value(fact);
       } else if (link(valueText(fact))) {
         chosen = selectBody(world, fact.value["index"].get<uint32_t>());

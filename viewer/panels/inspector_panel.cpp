@@ -11,6 +11,15 @@ using pfx::World;
 // A line that can be clicked, of a list below the facts.
 bool entry(const std::string& text, bool chosen = false) { return ImGui::Selectable(text.c_str(), chosen); }
 
+// "1 point on triangle 24", "3 points".
+std::string pointsText(const World& world, const pfx::Pair& pair, int points) {
+  std::string text = std::to_string(points) + (points == 1 ? " point" : " points");
+  const std::vector<uint32_t> triangles = touchedTriangles(world, pair);
+  for (size_t i = 0; i < triangles.size(); ++i)
+    text += (i > 0 ? ", " : triangles.size() == 1 ? " on triangle " : " on triangles ") + std::to_string(triangles[i]);
+  return text;
+}
+
 // Contacts and joints of the bodies that `has` picks out.
 template <class Has>
 std::optional<Selection> neighbours(const World& world, const Has& has) {
@@ -24,7 +33,7 @@ std::optional<Selection> neighbours(const World& world, const Has& has) {
       if (points == 0 || ++shown > 60) continue;
       ImGui::PushID(int(shown));
       if (entry(bodyTitle(world, pair.body_a) + " - " + bodyTitle(world, pair.body_b) + ", " +
-                std::to_string(points) + (points == 1 ? " point" : " points")))
+                pointsText(world, pair, points)))
         chosen = selectContact(world, pair);
       ImGui::PopID();
     }

@@ -1,9 +1,16 @@
 // The fixed-function state of a pass, set as a whole, so that no pass depends on the one before it.
 #pragma once
 
+#include <optional>
+
 #include "viewer/render/gl_objects.h"
 
 namespace viewer {
+
+// Samples, from the lower left corner of the picture.
+struct ScreenRect {
+  int x = 0, y = 0, width = 0, height = 0;
+};
 
 enum class Depth { Off, Test, TestAndWrite, Hidden };  // Hidden: passes what lies behind
 enum class Cull { None, Back, Front };
@@ -14,6 +21,7 @@ struct GlState {
   Cull cull = Cull::None;
   Blend blend = Blend::Off;
   bool color = true;
+  std::optional<ScreenRect> inside = {};  // nothing is drawn outside of it
 };
 
 inline void apply(const Gl& gl, const GlState& s) {
@@ -30,7 +38,8 @@ inline void apply(const Gl& gl, const GlState& s) {
     gl.BlendFuncSeparate(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_ONE, GL_ONE_MINUS_SRC_ALPHA);
   const GLboolean color = s.color ? GL_TRUE : GL_FALSE;
   gl.ColorMask(color, color, color, color);
-  gl.Disable(GL_SCISSOR_TEST);
+  toggle(GL_SCISSOR_TEST, s.inside.has_value());
+  if (s.inside) gl.Scissor(s.inside->x, s.inside->y, s.inside->width, s.inside->height);
 }
 
 }  // namespace viewer

@@ -9,6 +9,7 @@
 #include "viewer/render/frame_block.h"
 #include "viewer/render/gl_state.h"
 #include "viewer/render/program.h"
+#include "viewer/render/shadow_reach.h"
 #include "viewer/render/solid_store.h"
 #include "viewer/render/target.h"
 
@@ -39,14 +40,19 @@ class SolidPass {
     bool wire;         // shows all edges of triangles
   };
   SolidPass(const Gl& gl, const std::string& shaders, const Options& options);
-  void draw(std::span<const SolidDraw> draws, const FrameBlock& frame, GLuint shadow_map) const;
+  struct Shadow {
+    GLuint map;
+    ScreenRect reach;  // outside of it floors are in the sun
+  };
+  void draw(std::span<const SolidDraw> draws, const FrameBlock& frame, const Shadow& shadow) const;
   void drawTranslucent(std::span<const SolidDraw> draws, const FrameBlock& frame, GLuint shadow_map) const;
 
  private:
   void drawDepth(std::span<const SolidDraw> draws, const FrameBlock& frame) const;
+  void drawFloors(std::span<const SolidDraw> draws, const FrameBlock& frame, const ScreenRect& reach) const;
   void useShadow(GLuint shadow_map) const;
   const Gl* gl_;
-  Program depth_, plain_, shiny_, floor_, plain_round_, shiny_round_;
+  Program depth_, plain_, shiny_, floor_, sunny_floor_, plain_round_, shiny_round_;
 };
 
 // The sky where nothing was drawn.

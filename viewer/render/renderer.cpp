@@ -20,7 +20,7 @@ QualitySettings settingsOf(Quality quality) {
     case Quality::Ci:
       return {2, 1024, false};
     case Quality::Window:
-      return {1, 1024, false};
+      return {1, 2048, false};
     case Quality::Hero:
       return {3, 4096, true};
   }
@@ -91,7 +91,7 @@ struct Renderer::Impl {
     apply(gl, {.depth = Depth::TestAndWrite});
     gl.ClearDepth(1.0);
     gl.Clear(GL_DEPTH_BUFFER_BIT);
-    solids.draw(store.draws(), block, shadow.map());
+    solids.draw(store.draws(), block, {shadow.map(), shadowReach(list, sun, block)});
     if (quality.occlusion) {
       occlusion.draw(scene, block, 0.06f * (list.camera.target - list.camera.eye).norm());
       scene.bind();

@@ -19,7 +19,7 @@ namespace viewer {
 
 enum class Quality {
   Ci,      // 2x2 samples a pixel, small shadow map: the golden images
-  Window,  // as Ci, one sample a pixel
+  Window,  // one sample a pixel, larger shadow map: someone looks at it from near by
   Hero,    // 3x3 samples, large shadow map, ambient occlusion: pictures for the README
 };
 

@@ -110,6 +110,7 @@ SolidPass::SolidPass(const Gl& gl, const std::string& shaders, const Options& op
       plain_(gl, {"solid.vert.glsl", "solid.frag.glsl", defines({}, options), shaders}),
       shiny_(gl, {"solid.vert.glsl", "solid.frag.glsl", defines({"SHINY"}, options), shaders}),
       floor_(gl, {"solid.vert.glsl", "floor.frag.glsl", defines({}, options), shaders}),
+      sunny_floor_(gl, {"solid.vert.glsl", "floor.frag.glsl", defines({"NO_SHADOW"}, options), shaders}),
       plain_round_(gl, {"round.vert.glsl", "round.frag.glsl", defines({"PASS_COLOR"}, options), shaders}),
       shiny_round_(
           gl, {"round.vert.glsl", "round.frag.glsl", defines({"PASS_COLOR", "SHINY"}, options), shaders}) {}
@@ -132,16 +133,26 @@ void SolidPass::drawDepth(std::span<const SolidDraw> draws, const FrameBlock& fr
   pass.draw(simple, triangles(depth_, Attributes::Position), kOpaque);
 }
 
-void SolidPass::draw(std::span<const SolidDraw> draws, const FrameBlock& frame, GLuint shadow_map) const {
+void SolidPass::drawFloors(std::span<const SolidDraw> draws, const FrameBlock& frame, const ScreenRect& reach) const {
+  const auto drawInside = [&](const ScreenRect& rect, const Program& program) {
+    if (rect.width <= 0 || rect.height <= 0) return;
+    SolidDrawing pass{*gl_, {.depth = Depth::TestAndWrite, .inside = rect}, eyeOf(frame)};
+    pass.draw(draws, triangles(program, Attributes::All), {Layer::Floor});
+  };
+  drawInside(reach, floor_);
+  for (const ScreenRect& rect : around(reach, frame)) drawInside(rect, sunny_floor_);
+}
+
+void SolidPass::draw(std::span<const SolidDraw> draws, const FrameBlock& frame, const Shadow& shadow) const {
   drawDepth(draws, frame);
-  useShadow(shadow_map);
+  useShadow(shadow.map);
   SolidDrawing pass{*gl_, {.depth = Depth::TestAndWrite}, eyeOf(frame)};
   pass.draw(draws, triangles(plain_, Attributes::All), {Layer::Plain});
   pass.draw(draws, triangles(shiny_, Attributes::All), {Layer::Shiny});
   pass.draw(draws, rounds(plain_round_), {Layer::Plain});
   pass.draw(draws, rounds(shiny_round_), {Layer::Shiny});
   // Last, since most of a floor is behind something or alone: little is shaded twice.
-  pass.draw(draws, triangles(floor_, Attributes::All), {Layer::Floor});
+  drawFloors(draws, frame, shadow.reach);
 }
 
 void SolidPass::drawTranslucent(std::span<const SolidDraw> draws, const FrameBlock& frame,

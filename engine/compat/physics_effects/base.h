@@ -43,9 +43,11 @@
 #define SCE_PFX_ERR_INVALID_FORM SCE_PFX_ERR_SERIALIZE_INVALID_FORM
 #define SCE_PFX_ERR_INVALID_COUNT SCE_PFX_ERR_SERIALIZE_INVALID_COUNT
 
+// Whether a return value is SCE_PFX_OK.
 #define SCE_PFX_SUCCEEDED(code) ((code) == SCE_PFX_OK)
 #define SCE_PFX_FAILED(code) ((code) != SCE_PFX_OK)
 
+// Numbers, and arithmetic on numbers of any kind; arguments may be evaluated twice.
 #define SCE_PFX_PI 3.14159265358979f
 #define SCE_PFX_FLT_MAX 1e38f  // stands for infinity
 #define SCE_PFX_MIN(a, b) ((a) < (b) ? (a) : (b))
@@ -86,6 +88,7 @@
 namespace sce {
 namespace PhysicsEffects {
 
+// Numbers of the size in their name, and what holds a pointer.
 typedef int8_t PfxInt8;
 typedef uint8_t PfxUInt8;
 typedef int16_t PfxInt16;
@@ -104,6 +107,7 @@ inline void pfxAssertionFailed(const char* what, const char* file, int line) {
   ::std::abort();
 }
 
+// The vector math types under the names of this API.
 typedef sce::Vectormath::Scalar::Aos::Point3 PfxPoint3;
 typedef sce::Vectormath::Scalar::Aos::Vector3 PfxVector3;
 typedef sce::Vectormath::Scalar::Aos::Vector4 PfxVector4;

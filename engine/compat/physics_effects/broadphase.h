@@ -4,10 +4,11 @@
 #include "shape.h"
 #include "sort.h"
 
+// What pfxUpdateBroadphaseProxies() does with bodies outside of the world; flags.
 #define SCE_PFX_OUT_OF_WORLD_BEHAVIOR_FIX_MOTION 0x01u    // bodies outside become Fixed
 #define SCE_PFX_OUT_OF_WORLD_BEHAVIOR_REMOVE_PROXY 0x02u  // bodies outside get no proxy
 
-// Both spellings of the number of bodies name one member.
+// The number of bodies in the arrays; both spellings name one member.
 #define SCE_PFX_NUM_RIGID_BODIES_ \
   union {                         \
     PfxUInt32 numRigidBodies = 0; \
@@ -28,6 +29,7 @@ typedef PfxSortData32 PfxBroadphaseProxy;
 typedef PfxSortData16 PfxBroadphasePair;
 typedef PfxSortData16 PfxConstraintPair;
 
+// Parts of a pair: ids of the two bodies, their motion masks, whether it takes part, and the contact or joint that it names.
 inline void pfxSetRigidBodyIdA(PfxBroadphasePair& p, PfxUInt16 id) { p.set16(0, id); }
 inline void pfxSetRigidBodyIdB(PfxBroadphasePair& p, PfxUInt16 id) { p.set16(1, id); }
 inline void pfxSetMotionMaskA(PfxBroadphasePair& p, PfxUInt8 mask) { p.set8(4, mask); }
@@ -82,7 +84,10 @@ PfxInt32 pfxUpdateBroadphaseProxy(PfxBroadphaseProxy& proxyX, PfxBroadphaseProxy
                                   const PfxRigidState& state, const PfxCollidable& collidable,
                                   const PfxVector3& worldCenter, const PfxVector3& worldExtent);
 
+// Bodies, the arrays to write, and the world: centre and half extent, m.
 struct PfxUpdateBroadphaseProxiesParam {
+  // Scratch, aligned to 16 bytes, of pfxGetWorkBytesOfUpdateBroadphaseProxies() bytes; arrays of numRigidBodies; flags for what
+  // is outside.
   void* workBuff = nullptr;
   PfxUInt32 workBytes = 0;
   SCE_PFX_NUM_RIGID_BODIES_;
@@ -98,16 +103,21 @@ struct PfxUpdateBroadphaseProxiesParam {
   PfxVector3 worldExtent = PfxVector3(500.0f);
   PfxUInt32 outOfWorldBehavior = 0;
 };
+// How many proxies there are.
 struct PfxUpdateBroadphaseProxiesResult {
+  // Bodies outside of the world.
   PfxInt32 numOutOfWorldProxies = 0;
   PfxInt32 numProxies = 0;  // in each array: all bodies, less those outside when they are removed
 };
+// Bytes of scratch for so many bodies, whatever the number of tasks.
 PfxUInt32 pfxGetWorkBytesOfUpdateBroadphaseProxies(PfxUInt32 numRigidBodies, PfxUInt32 maxTasks = 1);
 // Writes and sorts the arrays that are given.
 PfxInt32 pfxUpdateBroadphaseProxies(PfxUpdateBroadphaseProxiesParam& param, PfxUpdateBroadphaseProxiesResult& result,
                                     PfxTaskManager* taskManager = nullptr);
 
+// Sorted proxies, and the buffers for their pairs.
 struct PfxFindPairsParam {
+  // Buffers of the two sizes below, the proxies, and the axis (0, 1, 2) that they were sorted along.
   void* workBuff = nullptr;
   PfxUInt32 workBytes = 0;
   void* pairBuff = nullptr;  // aligned to 16 bytes
@@ -117,17 +127,22 @@ struct PfxFindPairsParam {
   PfxUInt32 maxPairs = 0;
   int axis = 0;
 };
+// The pairs that were found.
 struct PfxFindPairsResult {
+  // The list and its length.
   PfxBroadphasePair* pairs = nullptr;  // in the pair buffer, sorted by the unique value of their bodies
   PfxUInt32 numPairs = 0;
 };
+// Bytes of scratch and of the pair buffer for up to maxPairs pairs.
 PfxUInt32 pfxGetWorkBytesOfFindPairs(PfxUInt32 maxPairs, PfxUInt32 maxTasks = 1);
 PfxUInt32 pfxGetPairBytesOfFindPairs(PfxUInt32 maxPairs);
 // All pairs whose bounds meet and that filters and motion types admit.
 // SCE_PFX_ERR_OUT_OF_MAX_PAIRS: more than maxPairs; numPairs is 0 then, and a call with a larger buffer finds all.
 PfxInt32 pfxFindPairs(PfxFindPairsParam& param, PfxFindPairsResult& result, PfxTaskManager* taskManager = nullptr);
 
+// The sorted pairs of two steps, and the buffers for what changed.
 struct PfxDecomposePairsParam {
+  // Buffers of the two sizes below, and the pairs.
   void* workBuff = nullptr;
   PfxUInt32 workBytes = 0;
   void* pairBuff = nullptr;  // aligned to 16 bytes
@@ -137,7 +152,9 @@ struct PfxDecomposePairsParam {
   PfxBroadphasePair* currentPairs = nullptr;  // sorted
   PfxUInt32 numCurrentPairs = 0;
 };
+// Pairs of this step alone, of both, and of the step before alone.
 struct PfxDecomposePairsResult {  // in the pair buffer
+  // Each list is sorted and lies in the pair buffer.
   PfxBroadphasePair* outNewPairs = nullptr;
   PfxUInt32 numOutNewPairs = 0;
   PfxBroadphasePair* outKeepPairs = nullptr;  // with the contact ids of the previous pairs
@@ -145,6 +162,7 @@ struct PfxDecomposePairsResult {  // in the pair buffer
   PfxBroadphasePair* outRemovePairs = nullptr;
   PfxUInt32 numOutRemovePairs = 0;
 };
+// Bytes of scratch and of the pair buffer for lists of these lengths.
 PfxUInt32 pfxGetWorkBytesOfDecomposePairs(PfxUInt32 numPreviousPairs, PfxUInt32 numCurrentPairs, PfxUInt32 maxTasks = 1);
 PfxUInt32 pfxGetPairBytesOfDecomposePairs(PfxUInt32 numPreviousPairs, PfxUInt32 numCurrentPairs);
 // SCE_PFX_ERR_INVALID_VALUE also for lists that are not sorted.
@@ -153,6 +171,7 @@ PfxInt32 pfxDecomposePairs(PfxDecomposePairsParam& param, PfxDecomposePairsResul
 
 // Six numbers of 21 bits in the first 16 bytes of a proxy: lower ends, then upper ends.
 #define SCE_PFX_PROXY_GRID_MAX_ 0x1fffffu
+
 inline PfxUInt32 pfxGetXYZMin(const PfxBroadphaseProxy& p, int axis) {
   const PfxUInt64 low = PfxUInt64(p.get32(1)) << 32 | p.get32(0);
   return static_cast<PfxUInt32>(low >> 21 * axis) & SCE_PFX_PROXY_GRID_MAX_;

@@ -250,6 +250,7 @@ void PfxContactPoint::reset() {
   m_distance = FLT_MAX;
   for (int k = 0; k < 3; ++k) m_localPointA[k] = m_localPointB[k] = m_armA[k] = m_armB[k] = 0.0f;
   for (PfxConstraintRow& row : m_constraintRow) row = {};
+  m_pushRhs = m_push[0] = m_push[1] = m_push[2] = 0.0f;
 }
 
 void PfxContactManifold::reset(PfxUInt16 rigidBodyIdA, PfxUInt16 rigidBodyIdB) {

@@ -11,8 +11,11 @@ namespace PhysicsEffects {
 // Where on a large mesh a contact or a hit lies.
 class PfxSubData {
  public:
+  // Kind of the data; the other numbers mean something for MESH_INFO only.
   enum { NONE = 0, MESH_INFO = 1 };
+  // NONE or MESH_INFO.
   PfxUInt8 m_type = NONE;
+  // Which triangle: its island, its number there, and what the application gave it.
   PfxUInt16 getIslandId() const { return island_; }
   PfxUInt16 getFacetId() const { return facet_; }  // in the island
   PfxUInt32 getUserData() const { return user_data_; }
@@ -25,7 +28,9 @@ class PfxSubData {
   void setFacetLocalS(PfxFloat s) { s_ = fraction(s); }
   void setFacetLocalT(PfxFloat t) { t_ = fraction(t); }
 
+  // 0 .. 1 as 16 bits.
   static PfxUInt16 fraction(PfxFloat x) { return static_cast<PfxUInt16>(SCE_PFX_CLAMP(x, 0.0f, 1.0f) * 65535.0f + 0.5f); }
+  // As stored.
   PfxUInt16 island_ = 0, facet_ = 0;
   PfxUInt16 s_ = 0, t_ = 0;
   PfxUInt32 user_data_ = 0;
@@ -33,6 +38,7 @@ class PfxSubData {
 
 // One row of the solver: velocity wanted along a direction, and the impulse gathered so far.
 struct PfxConstraintRow {
+  // What the row asks for: N s for m_rhs (the impulse that would reach the wanted velocity) and the limits, kg for m_jacDiagInv.
   PfxFloat m_normal[3];  // unit, world
   PfxFloat m_rhs;
   PfxFloat m_jacDiagInv;
@@ -41,7 +47,9 @@ struct PfxConstraintRow {
   PfxFloat m_accumImpulse;  // N s
 };
 
+// A point where two bodies touch or nearly do.
 struct PfxContactPoint {
+  // Where the point lies, which shapes of the bodies meet there, and the rows of the solver.
   PfxUInt8 m_duration;  // steps that the point has been kept, up to 255
   PfxUInt8 m_shapeIdA;
   PfxUInt8 m_shapeIdB;
@@ -53,21 +61,27 @@ struct PfxContactPoint {
   };
   PfxFloat m_localPointA[3];            // m, in the frame of body A
   PfxFloat m_localPointB[3];            // m, in the frame of body B
-  PfxFloat m_armA[3];                   // m, world, from the centres to the point: filled by the solver
+  // Filled by the solver: levers (m, world) from the centres to the point; what takes back overlap, N s.
+  PfxFloat m_armA[3];                   // m, world, from the centre to the point
   PfxFloat m_armB[3];
   PfxConstraintRow m_constraintRow[3];  // the normal, from B to A, and two tangents
+  PfxFloat m_pushRhs, m_push[3];        // N s, to take back overlap: filled by the solver
 
+  // A point without place, feature and impulse.
   PfxContactPoint() { reset(); }
   void reset();
+  // Unit, world axes, from B to A.
   PfxVector3 getNormal() const { return pfxReadVector3(m_constraintRow[0].m_normal); }
 };
 
 // What is known of the contact of two bodies: up to four points.
 class PfxContactManifold {
  public:
+  // Between two bodies, without points.
   PfxContactManifold() { reset(0, 0); }
   void reset(PfxUInt16 rigidBodyIdA, PfxUInt16 rigidBodyIdB);
 
+  // The bodies, the points (0 .. 3), and the friction of the two surfaces together.
   PfxUInt16 getRigidBodyIdA() const { return body_a_; }
   PfxUInt16 getRigidBodyIdB() const { return body_b_; }
   int getNumContacts() const { return num_points_; }
@@ -98,7 +112,9 @@ class PfxContactManifold {
   PfxContactPoint points_[SCE_PFX_NUMCONTACTS_PER_BODIES];
 };
 
+// Pairs, and the arrays that their ids lead into.
 struct PfxDetectCollisionParam {
+  // Arrays of the application; numRigidBodies bounds the ids in the pairs, 0: not known.
   PfxConstraintPair* contactPairs = nullptr;  // with contact ids
   PfxUInt32 numContactPairs = 0;
   PfxContactManifold* offsetContactManifolds = nullptr;
@@ -106,7 +122,9 @@ struct PfxDetectCollisionParam {
   PfxCollidable* offsetCollidables = nullptr;
   SCE_PFX_NUM_RIGID_BODIES_;
 };
+// Pairs, and the arrays that their ids lead into.
 struct PfxRefreshContactsParam {
+  // Arrays of the application; numRigidBodies bounds the ids in the pairs, 0: not known.
   PfxConstraintPair* contactPairs = nullptr;
   PfxUInt32 numContactPairs = 0;
   PfxContactManifold* offsetContactManifolds = nullptr;

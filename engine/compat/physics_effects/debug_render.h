@@ -28,6 +28,7 @@ typedef void (*PfxDebugRenderBoxFunc)(const PfxTransform3& transform, const PfxV
 // The arguments of a render method, told apart by their types. A number belongs to the array in front of it; one that
 // belongs to none, or to one that has its number, is the flags.
 struct PfxDebugRenderArguments {
+  // What was found among the arguments; NULL and 0: not given.
   const PfxRigidState* states = nullptr;
   const PfxCollidable* collidables = nullptr;
   const PfxIsland* island = nullptr;
@@ -38,6 +39,7 @@ struct PfxDebugRenderArguments {
   PfxUInt32 flag = 0;
   PfxUInt32 numRigidBodies = 0, numItems = 0, numPlanes = 0;
 
+  // Sorts the arguments.
   template <class... Args>
   explicit PfxDebugRenderArguments(const Args&... args) {
     const int inOrder[] = {(take(args), 0)...};
@@ -63,11 +65,13 @@ struct PfxDebugRenderArguments {
 // render methods may come in any order, numbers behind their arrays; the usual order is given.
 class PfxDebugRender {
  public:
+  // Without callbacks: nothing is drawn.
   PfxDebugRender();
   ~PfxDebugRender();
   PfxDebugRender(const PfxDebugRender&) = delete;
   PfxDebugRender& operator=(const PfxDebugRender&) = delete;
 
+  // The callbacks; NULL: what they draw is left out.
   void setDebugRenderPointFunc(PfxDebugRenderPointFunc func) { point_ = func; }
   void setDebugRenderLineFunc(PfxDebugRenderLineFunc func) { line_ = func; }
   void setDebugRenderArcFunc(PfxDebugRenderArcFunc func) { arc_ = func; }
@@ -80,6 +84,7 @@ class PfxDebugRender {
 
   // Makes bodies 0 .. numRigidBodies - 1 visible. Bodies that were never named are visible.
   void resetVisible(PfxUInt32 numRigidBodies);
+  // Of one body.
   void setVisible(PfxUInt32 rigidBodyId, PfxBool visible);
   PfxBool getVisible(PfxUInt32 rigidBodyId) const;
 

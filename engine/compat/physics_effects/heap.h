@@ -11,6 +11,7 @@ class PfxHeapManager {
  public:
   enum { ALIGN16 = 16, ALIGN128 = 128 };
 
+  // An empty stack in so many bytes.
   PfxHeapManager(unsigned char* buffer, PfxUInt32 bytes) : begin_(buffer), end_(buffer + bytes), top_(buffer) {}
   PfxHeapManager(const PfxHeapManager&) = delete;
   PfxHeapManager& operator=(const PfxHeapManager&) = delete;

@@ -10,7 +10,9 @@ namespace PhysicsEffects {
 struct PfxIsland;
 struct PfxIslandUnit;
 
+// Pairs of this step, and the buffer that the islands fill.
 struct PfxGenerateIslandParam {
+  // Buffers, and the pairs that connect; ids in them are below numObjects.
   void* islandBuff = nullptr;  // aligned to 16 bytes
   PfxUInt32 islandBytes = 0;
   void* workBuff = nullptr;  // not needed
@@ -19,9 +21,12 @@ struct PfxGenerateIslandParam {
   PfxUInt32 numPairs = 0;
   PfxUInt32 numObjects = 0;  // bodies
 };
+// The islands that were made.
 struct PfxGenerateIslandResult {
+  // At the start of the island buffer.
   PfxIsland* island = nullptr;
 };
+// Bytes of the buffers for so many bodies.
 PfxUInt32 pfxGetIslandBytesOfGenerateIsland(PfxUInt32 numObjects);
 PfxUInt32 pfxGetWorkBytesOfGenerateIsland(PfxUInt32 numObjects);
 // Every body that is not connected by an active pair of two moving bodies is an island of its own; Fixed, Keyframe and
@@ -30,6 +35,7 @@ PfxInt32 pfxGenerateIsland(PfxGenerateIslandParam& param, PfxGenerateIslandResul
 // Connects further pairs, such as those of the joints.
 PfxInt32 pfxAppendPairs(PfxIsland* island, PfxConstraintPair* pairs, PfxUInt32 numPairs);
 
+// Number of islands, and the island of a body.
 PfxUInt32 pfxGetNumIslands(const PfxIsland* island);
 PfxUInt32 pfxGetIslandId(const PfxIsland* island, PfxUInt32 objectId);
 // The bodies of an island, ascending; NULL at the end.

@@ -3,6 +3,7 @@
 
 #include "broadphase.h"
 
+// Of an axis.
 #define SCE_PFX_JOINT_LOCK_FREE 0   // free in the whole
 #define SCE_PFX_JOINT_LOCK_LIMIT 1  // free within the movable range
 #define SCE_PFX_JOINT_LOCK_FIX 2    // fixed where it stood when the joint was made, whatever the range
@@ -10,6 +11,7 @@
 namespace sce {
 namespace PhysicsEffects {
 
+// Kinds of joints. They differ in the axes that they lock; the kind only says how a joint was made.
 enum ePfxJointType {
   kPfxJointBall = 0,
   kPfxJointSwingtwist,
@@ -24,6 +26,7 @@ enum ePfxJointType {
 
 // A row of the solver.
 struct PfxJointRow {
+  // As the solver keeps it: N s for right side, limits and impulse, kg or kg m^2 for m_jacDiagInv.
   PfxFloat m_jacobian[12];
   PfxFloat m_rhs, m_jacDiagInv, m_lowerLimit, m_upperLimit;
   PfxFloat m_accumImpulse;
@@ -33,6 +36,7 @@ struct PfxJointRow {
 
 // One axis: m and N s for translations, rad and N m s for rotations.
 struct PfxJointConstraint {
+  // What the axis does, and its row.
   PfxUInt8 m_lock;
   PfxUInt8 m_warmStarting;          // start with the impulse of the step before
   PfxFloat m_movableLowerLimit;
@@ -43,11 +47,14 @@ struct PfxJointConstraint {
   PfxFloat m_maxImpulse;            // N s, N m s
   PfxJointRow m_constraintRow;
 
+  // Free, with bias 0.2, full weight, no damping and no limit of the impulse.
   PfxJointConstraint() { reset(); }
   void reset();
 };
 
+// Two bodies and the six axes between them.
 struct PfxJoint {
+  // Whether it takes part, its kind (ePfxJointType), the bodies, and the axes in the order translation, rotation.
   PfxUInt8 m_active = 1;
   PfxUInt8 m_numConstraints = 6;
   PfxUInt8 m_type = kPfxJointBall;
@@ -63,6 +70,7 @@ struct PfxJoint {
 // Points and axes are given in the world. With enableJointFrame the columns of jointFrame are the joint's axes, and the
 // axes below are ignored.
 struct PfxJointInitParamBase {
+  // Where the bodies meet (m, world), what all axes have of damping and bias (0 .. 1), and the axes when they are given directly.
   PfxVector3 anchorPoint = PfxVector3(0.0f);
   PfxFloat damping = 0.0f;
   PfxFloat bias = 0.2f;
@@ -71,8 +79,11 @@ struct PfxJointInitParamBase {
 };
 struct PfxBallJointInitParam : PfxJointInitParamBase {};
 struct PfxFixedJointInitParam : PfxJointInitParamBase {};
+// The other name.
 typedef PfxFixedJointInitParam PfxFixJointInitParam;
+// Ranges in rad: twist about the axis, and swing of the axis away from where it stands.
 struct PfxSwingTwistJointInitParam : PfxJointInitParamBase {
+  // Twist axis (world) and ranges, rad.
   PfxVector3 twistAxis = PfxVector3(1.0f, 0.0f, 0.0f);
   PfxFloat twistLowerAngle = -0.2f * SCE_PFX_PI;
   PfxFloat twistUpperAngle = 0.2f * SCE_PFX_PI;
@@ -81,18 +92,24 @@ struct PfxSwingTwistJointInitParam : PfxJointInitParamBase {
 };
 // A lower limit above the upper one means: no limit.
 struct PfxHingeJointInitParam : PfxJointInitParamBase {
+  // Hinge axis (world) and range, rad.
   PfxVector3 axis = PfxVector3(1.0f, 0.0f, 0.0f);
   PfxFloat lowerAngle = 1.0f;
   PfxFloat upperAngle = -1.0f;
 };
+// A lower limit above the upper one means: no limit.
 struct PfxSliderJointInitParam : PfxJointInitParamBase {
+  // Direction of the way (world) and its range, m.
   PfxVector3 direction = PfxVector3(1.0f, 0.0f, 0.0f);
   PfxFloat lowerDistance = 1.0f;
   PfxFloat upperDistance = -1.0f;
 };
+// Two swing axes at right angles to `axis`; no twist.
 struct PfxUniversalJointInitParam : PfxJointInitParamBase {
+  // The axis that does not twist (world).
   PfxVector3 axis = PfxVector3(1.0f, 0.0f, 0.0f);
   PfxVector3 upVec = PfxVector3(0.0f, 1.0f, 0.0f);  // the first swing axis is as near to it as possible
+  // Ranges of the two swings, rad.
   PfxFloat swing1LowerAngle = -0.7f;
   PfxFloat swing1UpperAngle = 0.7f;
   PfxFloat swing2LowerAngle = -0.7f;

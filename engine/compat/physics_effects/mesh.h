@@ -14,6 +14,7 @@
 #define SCE_PFX_MESH_FLAG_USE_QUANTIZED 0x40u
 #define SCE_PFX_MESH_FLAG_HIGH_QUALITY 0x80u
 
+// How a large mesh is stored: floats or 16-bit integers, islands in a list or in a hierarchy.
 #define SCE_PFX_LARGE_MESH_TYPE_EXPANDED_ARRAY 0
 #define SCE_PFX_LARGE_MESH_TYPE_QUANTIZED_ARRAY 1
 #define SCE_PFX_LARGE_MESH_TYPE_EXPANDED_BVH 2
@@ -26,7 +27,9 @@ namespace PhysicsEffects {
 struct PfxNativeConvexMesh;
 struct PfxNativeLargeMesh;
 
+// A convex mesh that was made; the arrays are its own.
 struct PfxConvexMesh {
+  // Vertices and triangles as they were given, and the engine's own mesh.
   PfxUInt16 m_numVerts = 0;
   PfxUInt16 m_numIndices = 0;
   PfxFloat* m_verts = nullptr;      // (numVerts x 3) m
@@ -37,13 +40,16 @@ struct PfxConvexMesh {
 
 // A run of at most 64 neighbouring triangles of a large mesh.
 struct PfxTriMesh {
+  // Its triangles, as a run of the triangles of the mesh, and their bounds, m.
   PfxUInt8 m_numFacets = 0;
   PfxUInt32 m_firstFacet = 0;
   PfxVector3 m_center = PfxVector3(0.0f);  // m, of its bounds
   PfxVector3 m_half = PfxVector3(0.0f);
 };
 
+// A large mesh that was made; the arrays are its own.
 struct PfxLargeTriMesh {
+  // How it is stored (SCE_PFX_LARGE_MESH_TYPE_...), its islands and triangles.
   PfxUInt8 m_type = SCE_PFX_LARGE_MESH_TYPE_EXPANDED_ARRAY;
   PfxUInt16 m_numIslands = 0;
   PfxUInt16 m_maxIslands = 0;
@@ -53,7 +59,10 @@ struct PfxLargeTriMesh {
   PfxNativeLargeMesh* m_native = nullptr;
 };
 
+// What a convex mesh is made of.
 struct PfxCreateConvexMeshParam {
+  // Flags, vertices (x, y, z in m at the start of each record) and triangles (three indices at the start of each record); they are
+  // copied.
   PfxUInt32 flag = 0;
   const PfxFloat* verts = nullptr;
   PfxUInt32 numVerts = 0;
@@ -63,7 +72,10 @@ struct PfxCreateConvexMeshParam {
   PfxUInt32 triangleStrideBytes = sizeof(PfxUInt16) * 3;
 };
 
+// What a large mesh is made of.
 struct PfxCreateLargeTriMeshParam {
+  // Flags, vertices (x, y, z in m at the start of each record) and triangles (three indices at the start of each record); they are
+  // copied.
   PfxUInt32 flag = 0;
   const PfxFloat* verts = nullptr;
   PfxUInt32 numVerts = 0;
@@ -78,6 +90,7 @@ struct PfxCreateLargeTriMeshParam {
   PfxFloat defaultThickness = 0.025f;                    // m, used with SCE_PFX_MESH_FLAG_AUTO_THICKNESS
 };
 
+// Islands of both ways to store.
 typedef PfxTriMesh PfxExpandedTriMesh;
 typedef PfxTriMesh PfxQuantizedTriMesh;
 

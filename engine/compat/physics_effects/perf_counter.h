@@ -13,6 +13,7 @@ class PfxPerfCounter {
  public:
   enum { kMaxMarks = 64 };
 
+  // Begins and ends a section; the name must outlive the counter.
   void countBegin(const char* name) { mark(name); }
   void countEnd() { mark(""); }
   void resetCount() { num_marks_ = 0; }

@@ -6,6 +6,7 @@
 namespace sce {
 namespace PhysicsEffects {
 
+// How a body moves, and what its contacts do.
 enum ePfxMotionType {
   kPfxMotionTypeFixed = 0,  // infinite mass, never moves
   kPfxMotionTypeActive,     // moves by the laws of mechanics
@@ -31,6 +32,7 @@ class PfxRigidState {
   // Active at the origin and at rest, filters all ones.
   void reset();
 
+  // Pose (m) and velocities of the centre of mass.
   PfxVector3 getPosition() const { return pfxReadVector3(position_); }
   PfxQuat getOrientation() const { return pfxReadQuat(orientation_); }
   PfxVector3 getLinearVelocity() const { return pfxReadVector3(linear_velocity_); }
@@ -38,8 +40,17 @@ class PfxRigidState {
   void setPosition(const PfxVector3& v) { pfxStoreVector3(v, position_); }
   void setPosition(const PfxPoint3& p) { pfxStorePoint3(p, position_); }
   void setOrientation(const PfxQuat& q) { pfxStoreQuat(q, orientation_); }
-  void setLinearVelocity(const PfxVector3& v) { pfxStoreVector3(v, linear_velocity_); }
-  void setAngularVelocity(const PfxVector3& v) { pfxStoreVector3(v, angular_velocity_); }
+  void setLinearVelocity(const PfxVector3& v) { setLinearVelocity(v, PfxVector3(0.0f)); }
+  void setAngularVelocity(const PfxVector3& v) { setAngularVelocity(v, PfxVector3(0.0f)); }
+  // With a part that lasts until the next update of the states only: the solver parts overlapping bodies with it.
+  void setLinearVelocity(const PfxVector3& v, const PfxVector3& passing) {
+    pfxStoreVector3(v, linear_velocity_), pfxStoreVector3(passing, passing_linear_);
+  }
+  void setAngularVelocity(const PfxVector3& v, const PfxVector3& passing) {
+    pfxStoreVector3(v, angular_velocity_), pfxStoreVector3(passing, passing_angular_);
+  }
+  PfxVector3 getPassingLinearVelocity() const { return pfxReadVector3(passing_linear_); }
+  PfxVector3 getPassingAngularVelocity() const { return pfxReadVector3(passing_angular_); }
 
   // The velocity that takes a keyframe body to a pose within `timeStep`; the next update of the states does the rest.
   // Other motion types are not moved.
@@ -49,6 +60,7 @@ class PfxRigidState {
     movePosition(pose.getTranslation(), timeStep), moveOrientation(PfxQuat(pose.getUpper3x3()), timeStep);
   }
 
+  // Index of the body in the three arrays.
   PfxUInt16 getRigidBodyId() const { return static_cast<PfxUInt16>(body_id_); }
   void setRigidBodyId(PfxUInt16 id) { body_id_ = id; }
   // A pair survives when self of each meets target of the other.
@@ -57,6 +69,7 @@ class PfxRigidState {
   void setContactFilterSelf(PfxUInt32 filter) { filter_self_ = filter; }
   void setContactFilterTarget(PfxUInt32 filter) { filter_target_ = filter; }
 
+  // How it moves, and the same as a bit, with or without sleep.
   ePfxMotionType getMotionType() const { return static_cast<ePfxMotionType>(motion_type_); }
   void setMotionType(ePfxMotionType type) { motion_type_ = static_cast<PfxUInt8>(type); }
   void setMotionType(PfxUInt8 type) { motion_type_ = type; }
@@ -111,6 +124,8 @@ class PfxRigidState {
   PfxFloat angular_damping_;
   PfxFloat max_linear_velocity_;
   PfxFloat max_angular_velocity_;
+  PfxFloat passing_linear_[3];
+  PfxFloat passing_angular_[3];
   PfxUInt32 user_param_[4];
   void* user_data_;
 };
@@ -122,6 +137,7 @@ class PfxRigidBody {
   // 1 kg with unit inertia, restitution 0.2, friction 0.6.
   void reset();
 
+  // kg, and 1/kg; no mass at all gives way to no force.
   PfxFloat getMass() const { return mass_; }
   PfxFloat getMassInv() const { return mass_inv_; }
   void setMass(PfxFloat mass) { mass_ = mass, mass_inv_ = mass > 0.0f ? 1.0f / mass : 0.0f; }
@@ -131,6 +147,7 @@ class PfxRigidBody {
   // A tensor that has no inverse gives way to no torque.
   void setInertia(const PfxMatrix3& inertia);
   void setInertiaInv(const PfxMatrix3& inverse) { inertia_inv_ = inverse; }
+  // Of the surface, 0 .. 1: restitutions are averaged, of frictions the geometric mean is taken. Data of the application.
   PfxFloat getRestitution() const { return restitution_; }
   void setRestitution(PfxFloat restitution) { restitution_ = restitution; }
   PfxFloat getFriction() const { return friction_; }

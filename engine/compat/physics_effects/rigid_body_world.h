@@ -11,7 +11,9 @@
 namespace sce {
 namespace PhysicsEffects {
 
+// How much a world has room for, and how it is simulated.
 struct PfxRigidBodyWorldParam {
+  // Room for bodies, joints, shapes and pairs; the world; the solver; sleep; the block of memory.
   PfxUInt32 maxRigidBodies = 500;  // up to 65535
   PfxUInt32 maxJoints = 500;
   PfxUInt32 maxShapes = 100;           // of bodies with several shapes
@@ -34,6 +36,7 @@ struct PfxRigidBodyWorldParam {
 struct PfxAabbOverlapInput {
   PfxVector3 m_center = PfxVector3(0.0f);      // m
   PfxVector3 m_halfExtent = PfxVector3(0.0f);  // m
+  // As those of a body.
   PfxUInt32 m_contactFilterSelf = 0xffffffffu;
   PfxUInt32 m_contactFilterTarget = 0xffffffffu;
 };
@@ -47,6 +50,7 @@ class PfxRigidBodyWorld {
   // Bytes of the pool for a world of these parameters.
   static PfxUInt32 getRigidBodyWorldBytes(const PfxRigidBodyWorldParam& param);
 
+  // Keeps the parameters; initialize() makes the world.
   explicit PfxRigidBodyWorld(const PfxRigidBodyWorldParam& param);
   PfxRigidBodyWorld(const PfxRigidBodyWorld&) = delete;
   PfxRigidBodyWorld& operator=(const PfxRigidBodyWorld&) = delete;
@@ -97,6 +101,7 @@ class PfxRigidBodyWorld {
   PfxUInt32 getContactCapacity() const { return p_.maxContacts; }
   PfxUInt32 getNonContactPairCapacity() const { return p_.maxNonContactPairs; }
 
+  // By id.
   PfxRigidState& getRigidState(PfxUInt32 id) { return states_[at(id, num_bodies_)]; }
   const PfxRigidState& getRigidState(PfxUInt32 id) const { return states_[at(id, num_bodies_)]; }
   PfxRigidBody& getRigidBody(PfxUInt32 id) { return bodies_[at(id, num_bodies_)]; }

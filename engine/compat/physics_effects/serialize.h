@@ -11,6 +11,7 @@ namespace PhysicsEffects {
 
 // Numbers of instances. Writing: how many there are. Reading: how many there is room for, and what was loaded in the end.
 struct PfxSerializeCapacity {
+  // Of each kind.
   SCE_PFX_NUM_RIGID_BODIES_;  // states, bodies and collidables
   PfxUInt32 numShapes = 0;    // of collidables with several
   PfxUInt32 numConvexMeshes = 0;
@@ -22,6 +23,7 @@ struct PfxSerializeCapacity {
 
 // Where the instances lie. NULL is an error where the number is not 0.
 struct PfxSerializeBuffers {
+  // Arrays of as many instances as the numbers say.
   PfxRigidState* states = nullptr;
   PfxRigidBody* bodies = nullptr;
   PfxCollidable* collidables = nullptr;
@@ -47,6 +49,7 @@ typedef void (*PfxSerializeErrorFunc)(PfxInt32 errorCode, const char* const* tag
 
 // All but init may be NULL; writing calls neither resize nor update.
 struct PfxSerializeFuncs {
+  // In the order in which they may be called.
   PfxSerializeInitFunc initFunc = nullptr;
   PfxSerializeTermFunc termFunc = nullptr;
   PfxSerializeResizeFunc resizeFunc = nullptr;
@@ -60,6 +63,7 @@ struct PfxSerializeFuncs {
 PfxInt32 pfxSerializeWrite(std::FILE* file, const PfxSerializeFuncs& funcs);
 PfxInt32 pfxSerializeRead(std::FILE* file, const PfxSerializeFuncs& funcs);
 
+// The same with the functions one by one.
 inline PfxInt32 pfxSerializeWrite(std::FILE* file, PfxSerializeInitFunc init, PfxSerializeTermFunc term = nullptr,
                                   PfxSerializeErrorFunc error = nullptr) {
   PfxSerializeFuncs funcs;

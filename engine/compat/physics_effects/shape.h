@@ -6,14 +6,18 @@
 namespace sce {
 namespace PhysicsEffects {
 
+// A ball about the origin.
 struct PfxSphere {
+  // Radius, m.
   PfxSphere() : m_radius(1.0f) {}
   PfxSphere(PfxFloat radius) : m_radius(radius) {}
   void set(PfxFloat radius) { m_radius = radius; }
   PfxFloat m_radius;
 };
 
+// A box about the origin.
 struct PfxBox {
+  // Half lengths along x, y and z, m.
   PfxBox() : m_half(1.0f) {}
   PfxBox(const PfxVector3& half) : m_half(half) {}
   PfxBox(PfxFloat x, PfxFloat y, PfxFloat z) : m_half(x, y, z) {}
@@ -23,7 +27,9 @@ struct PfxBox {
   PfxVector3 m_half;
 };
 
+// A segment along x with all points nearer to it than the radius.
 struct PfxCapsule {
+  // Half length of the core segment and radius, m.
   PfxCapsule() : m_halfLen(1.0f), m_radius(1.0f) {}
   PfxCapsule(PfxFloat halfLength, PfxFloat radius) : m_halfLen(halfLength), m_radius(radius) {}
   void set(PfxFloat halfLength, PfxFloat radius) { m_halfLen = halfLength, m_radius = radius; }
@@ -31,7 +37,9 @@ struct PfxCapsule {
   PfxFloat m_radius;
 };
 
+// A cylinder along x.
 struct PfxCylinder {
+  // Half length and radius, m.
   PfxCylinder() : m_halfLen(1.0f), m_radius(1.0f) {}
   PfxCylinder(PfxFloat halfLength, PfxFloat radius) : m_halfLen(halfLength), m_radius(radius) {}
   void set(PfxFloat halfLength, PfxFloat radius) { m_halfLen = halfLength, m_radius = radius; }
@@ -39,6 +47,7 @@ struct PfxCylinder {
   PfxFloat m_radius;
 };
 
+// Kinds of shapes.
 enum ePfxShapeType {
   kPfxShapeSphere = 0,
   kPfxShapeBox,
@@ -52,9 +61,11 @@ enum ePfxShapeType {
 // One geometry placed in its body. Primitives are held by value, meshes by pointer: they must outlive the shape.
 class PfxShape {
  public:
+  // A sphere without a radius yet, at the origin of the body; filters all ones.
   PfxShape() { reset(); }
   void reset();
 
+  // What the shape is.
   void setSphere(const PfxSphere& s) { set(kPfxShapeSphere, s.m_radius); }
   void setBox(const PfxBox& b) { set(kPfxShapeBox, b.m_half[0], b.m_half[1], b.m_half[2]); }
   void setCapsule(const PfxCapsule& c) { set(kPfxShapeCapsule, c.m_halfLen, c.m_radius); }
@@ -62,6 +73,7 @@ class PfxShape {
   void setConvexMesh(const PfxConvexMesh* mesh) { set(kPfxShapeConvexMesh), mesh_ = mesh; }
   void setLargeTriMesh(const PfxLargeTriMesh* mesh) { set(kPfxShapeLargeTriMesh), mesh_ = mesh; }
 
+  // The kind (ePfxShapeType), and the sizes as this kind; NULL for a mesh of another kind.
   PfxUInt8 getType() const { return type_; }
   PfxSphere getSphere() const { return PfxSphere(size_[0]); }
   PfxBox getBox() const { return PfxBox(size_[0], size_[1], size_[2]); }
@@ -74,6 +86,7 @@ class PfxShape {
     return type_ == kPfxShapeLargeTriMesh ? static_cast<const PfxLargeTriMesh*>(mesh_) : nullptr;
   }
 
+  // Pose in the body, m.
   PfxVector3 getOffsetPosition() const { return pfxReadVector3(position_); }
   PfxQuat getOffsetOrientation() const { return pfxReadQuat(orientation_); }
   PfxTransform3 getOffsetTransform() const { return PfxTransform3(getOffsetOrientation(), getOffsetPosition()); }
@@ -116,6 +129,7 @@ class PfxShape {
 // application, which must outlive the collidable.
 class PfxCollidable {
  public:
+  // Without shapes yet.
   PfxCollidable() { reset(); }
   // One shape, held inside.
   void reset();
@@ -124,12 +138,14 @@ class PfxCollidable {
   PfxInt32 reset(PfxShape* shapes, const PfxUInt16* shapeIds, PfxUInt32 numShapes = 1);
   // SCE_PFX_ERR_OUT_OF_RANGE when all places are taken.
   PfxInt32 addShape(const PfxShape& shape);
+  // Place of the i-th shape in the array of the application; the shape that is held inside.
   PfxUInt16 getShapeId(PfxUInt32 i) const { return shape_ids_[i]; }
   const PfxShape& getDefShape() const { return own_shape_; }
   // Computes the bounds; to be called when all shapes are there. SCE_PFX_ERR_INVALID_VALUE: no shape, a size that is
   // not finite and positive, or a mesh that was not created. The bounds are empty then.
   PfxInt32 finish();
 
+  // Shapes that were added and that have room, the shapes, the bounds in the body (m), and data of the application.
   PfxUInt32 getNumShapes() const { return num_shapes_; }
   PfxUInt32 getMaxNumShapes() const { return max_shapes_; }
   const PfxShape* getShapeArray() const { return shapes_; }  // of the application; NULL for a single shape
@@ -155,6 +171,7 @@ class PfxCollidable {
 // Walks over the shapes of a collidable: for (i = 0; i < getNumShapes(); ++i, ++iterator) use *iterator.
 class PfxShapeIterator {
  public:
+  // Begins at the first shape; * gives the shape, ++ goes on.
   explicit PfxShapeIterator(const PfxCollidable& collidable) : collidable_(collidable) {}
   PfxShapeIterator& operator++() { return ++at_, *this; }
   const PfxShape& operator*() const { return collidable_.getShape(at_); }

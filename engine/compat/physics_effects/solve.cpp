@@ -11,6 +11,9 @@ namespace {
 // of boxes swaying that stand with two.
 constexpr int kContactVisits = 2;
 
+// Pushes start from nothing in each step, so they need more.
+constexpr PfxUInt32 kPushVisits = 2;
+
 // A pair to solve, looked up once for all iterations.
 template <class Item>
 struct Visit {
@@ -46,6 +49,16 @@ void solveContact(pfx::ImpulsePair bodies, PfxContactManifold& manifold) {
 }
 void solveJoint(pfx::ImpulsePair bodies, PfxJoint& joint) { pfx::solveImpulses(bodies, impulses(joint)); }
 
+bool overlaps(const PfxContactManifold& manifold) {
+  for (int k = 0; k < manifold.getNumContacts(); ++k)
+    if (manifold.getContactPoint(k).m_pushRhs > 0.0f) return true;
+  return false;
+}
+void solvePush(pfx::ImpulsePair bodies, PfxContactManifold& manifold) {
+  const PfxFloat friction = manifold.getCompositeFriction();
+  for (int k = 0; k < manifold.getNumContacts(); ++k) pfx::solvePush(bodies, friction, impulses(manifold.getContactPoint(k)));
+}
+
 void solve(const PfxSolveConstraintsParam& p, const Selection& s) {
   forEachPair(s.joints, warmStartJoint);
   forEachPair(s.contacts, warmStartContact);
@@ -53,6 +66,8 @@ void solve(const PfxSolveConstraintsParam& p, const Selection& s) {
     forEachPair(s.joints, solveJoint);
     forEachPair(s.contacts, solveContact);
   }
+  if (std::none_of(s.contacts.begin(), s.contacts.end(), [](const auto& v) { return overlaps(*v.item); })) return;
+  for (PfxUInt32 i = 0; i < kPushVisits * p.iteration; ++i) forEachPair(s.contacts, solvePush);
 }
 
 template <class Item>
@@ -149,8 +164,9 @@ void addChanges(const PfxSolveConstraintsParam& p, PfxUInt32 i) {
   const PfxSolverBody& body = p.offsetSolverBodies[i];
   if (!(body.m_massInv > 0.0f)) return;
   PfxRigidState& state = p.offsetRigidStates[i];
-  state.setLinearVelocity(state.getLinearVelocity() + pfxReadVector3(body.m_deltaLinearVelocity));
-  state.setAngularVelocity(state.getAngularVelocity() + pfxReadVector3(body.m_deltaAngularVelocity));
+  const PfxVector3 push = pfxReadVector3(body.m_pushLinearVelocity), push_turn = pfxReadVector3(body.m_pushAngularVelocity);
+  state.setLinearVelocity(state.getLinearVelocity() + pfxReadVector3(body.m_deltaLinearVelocity) + push, push);
+  state.setAngularVelocity(state.getAngularVelocity() + pfxReadVector3(body.m_deltaAngularVelocity) + push_turn, push_turn);
 }
 
 }  // namespace

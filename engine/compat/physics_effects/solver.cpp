@@ -13,7 +13,9 @@ static_assert(sizeof(PfxConstraintRow) == sizeof(pfx::ImpulseRow));
 static_assert(sizeof(PfxJointRow) == sizeof(pfx::ImpulseJointRow));
 static_assert(std::extent_v<decltype(PfxJoint::m_coupling)> == pfx::kNumImpulseCouplings);
 static_assert(offsetof(PfxContactPoint, m_constraintRow) - offsetof(PfxContactPoint, m_armA) == offsetof(pfx::ImpulsePoint, rows));
+static_assert(offsetof(PfxContactPoint, m_push) - offsetof(PfxContactPoint, m_armA) == offsetof(pfx::ImpulsePoint, push));
 static_assert(offsetof(PfxSolverBody, m_inertiaInv) == offsetof(pfx::ImpulseBody, inv_inertia));
+static_assert(offsetof(PfxSolverBody, m_pushAngularVelocity) == offsetof(pfx::ImpulseBody, push_w));
 
 struct Surface {
   PfxFloat restitution, separate_bias, time_step;
@@ -128,8 +130,8 @@ void moveBody(PfxRigidState& state, PfxFloat h, Remaining& remaining) {
   state.setPosition(state.getPosition() + v * h);
   state.setOrientation(normalize(compat(pfx::expMap(native(w * h))) * state.getOrientation()));
   if (!pfx::isDynamic(native(state).motion_type)) return;
-  state.setLinearVelocity(v * remaining(state.getLinearDamping()));
-  state.setAngularVelocity(w * remaining(state.getAngularDamping()));
+  state.setLinearVelocity((v - state.getPassingLinearVelocity()) * remaining(state.getLinearDamping()));
+  state.setAngularVelocity((w - state.getPassingAngularVelocity()) * remaining(state.getAngularDamping()));
 }
 
 }  // namespace

@@ -11,6 +11,7 @@ namespace Scalar {
 // A float that stands in for a vector register. Converts both ways.
 class floatInVec {
  public:
+  // The float, and arithmetic that changes it.
   floatInVec() : value_(0.0f) {}
   floatInVec(float value) : value_(value) {}
   float getAsFloat() const { return value_; }
@@ -27,6 +28,7 @@ class floatInVec {
 // A truth value that stands in for a vector register. Converts both ways.
 class boolInVec {
  public:
+  // The truth value, and logic that changes it.
   boolInVec() : value_(false) {}
   boolInVec(bool value) : value_(value) {}
   bool getAsBool() const { return value_; }
@@ -39,6 +41,7 @@ class boolInVec {
   bool value_;
 };
 
+// b where choose_b is true, else a.
 inline floatInVec select(floatInVec a, floatInVec b, boolInVec choose_b) { return choose_b.getAsBool() ? b : a; }
 inline boolInVec select(boolInVec a, boolInVec b, boolInVec choose_b) { return choose_b.getAsBool() ? b : a; }
 
@@ -49,8 +52,10 @@ class Point3;
 class Quat;
 class Matrix3;
 
+// A direction or displacement.
 class alignas(16) Vector3 {
  public:
+  // Made of its elements x, y, z (zeros without any), which are read and set by name or index; arithmetic is by element.
   Vector3() : e_{0, 0, 0, 0} {}
   Vector3(float x, float y, float z) : e_{x, y, z, 0} {}
   explicit Vector3(float all) : e_{all, all, all, 0} {}
@@ -78,14 +83,17 @@ class alignas(16) Vector3 {
  private:
   float e_[4];
 };
+// Sums, and products with numbers.
 inline Vector3 operator+(Vector3 a, const Vector3& b) { return a += b; }
 inline Vector3 operator-(Vector3 a, const Vector3& b) { return a -= b; }
 inline Vector3 operator*(Vector3 a, float s) { return a *= s; }
 inline Vector3 operator*(float s, Vector3 a) { return a *= s; }
 inline Vector3 operator/(Vector3 a, float s) { return a /= s; }
 
+// A place.
 class alignas(16) Point3 {
  public:
+  // Made of its elements x, y, z (zeros without any), which are read and set by name or index; a vector moves it.
   Point3() : e_{0, 0, 0, 0} {}
   Point3(float x, float y, float z) : e_{x, y, z, 0} {}
   explicit Point3(float all) : e_{all, all, all, 0} {}
@@ -106,14 +114,19 @@ class alignas(16) Point3 {
  private:
   float e_[4];
 };
+// From the origin to the point.
 inline Vector3::Vector3(const Point3& p) : e_{p[0], p[1], p[2], 0} {}
+// A point moved by a vector, and the vector between points.
 inline Point3 operator+(Point3 a, const Vector3& b) { return a += b; }
 inline Point3 operator+(const Vector3& a, Point3 b) { return b += a; }
 inline Point3 operator-(Point3 a, const Vector3& b) { return a -= b; }
 inline Vector3 operator-(const Point3& a, const Point3& b) { return Vector3(a) - Vector3(b); }
 
+// Four numbers.
 class alignas(16) Vector4 {
  public:
+  // Made of its elements x, y, z, w (zeros without any; w is 1 of a point, 0 of a vector), which are read and set by name or
+  // index; arithmetic is by element.
   Vector4() : e_{0, 0, 0, 0} {}
   Vector4(float x, float y, float z, float w) : e_{x, y, z, w} {}
   Vector4(const Vector3& v, float w) : e_{v[0], v[1], v[2], w} {}
@@ -148,6 +161,7 @@ class alignas(16) Vector4 {
  private:
   float e_[4];
 };
+// Sums, products with numbers and by element, and the inner product.
 inline Vector4 operator+(Vector4 a, const Vector4& b) { return a += b; }
 inline Vector4 operator-(Vector4 a, const Vector4& b) { return a -= b; }
 inline Vector4 operator*(Vector4 a, float s) { return a *= s; }
@@ -159,6 +173,8 @@ inline float dot(const Vector4& a, const Vector4& b) { return a[0] * b[0] + a[1]
 // x, y, z, w; a unit quaternion rotates.
 class alignas(16) Quat {
  public:
+  // Made of its elements (no rotation without any), of a rotation matrix, or of an angle in rad about a unit axis; the product
+  // turns by the right one first.
   Quat() : e_{0, 0, 0, 1} {}
   Quat(float x, float y, float z, float w) : e_{x, y, z, w} {}
   Quat(const Vector3& v, float w) : e_{v[0], v[1], v[2], w} {}
@@ -195,14 +211,18 @@ class alignas(16) Quat {
   float e_[4];
 };
 
+// The elements.
 inline Vector4::Vector4(const Quat& q) : e_{q[0], q[1], q[2], q[3]} {}
 
+// Length and its square, the vector at length 1, the mean of two weighted 1 - t and t, and the choice of one.
 inline float lengthSqr(const Vector4& v) { return dot(v, v); }
 inline float length(const Vector4& v) { return std::sqrt(dot(v, v)); }
 inline Vector4 normalize(const Vector4& v) { return v / length(v); }
 inline Vector4 lerp(float t, const Vector4& a, const Vector4& b) { return a + t * (b - a); }
 inline Vector4 select(const Vector4& a, const Vector4& b, bool choose_b) { return choose_b ? b : a; }
 
+// Products and lengths of vectors, distances of points, and arithmetic by element; the vector or point between two by the share
+// t; b where choose_b is true, else a. `unit` is of length 1.
 inline float dot(const Vector3& a, const Vector3& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 inline Vector3 cross(const Vector3& a, const Vector3& b) {
   return Vector3(a[1] * b[2] - a[2] * b[1], a[2] * b[0] - a[0] * b[2], a[0] * b[1] - a[1] * b[0]);
@@ -244,6 +264,8 @@ inline Point3 minPerElem(const Point3& a, const Point3& b) { return Point3(minPe
 inline Point3 select(const Point3& a, const Point3& b, bool choose_b) { return choose_b ? b : a; }
 inline Vector3 select(const Vector3& a, const Vector3& b, bool choose_b) { return choose_b ? b : a; }
 
+// Sums, products, lengths (norm: squared) and the conjugate; rotate() turns a vector by a unit quaternion; lerp() is not of
+// length 1.
 inline Quat operator+(Quat a, const Quat& b) { return a += b; }
 inline Quat operator-(Quat a, const Quat& b) { return a -= b; }
 inline Quat operator/(const Quat& a, float s) { return Quat(a[0] / s, a[1] / s, a[2] / s, a[3] / s); }
@@ -253,7 +275,6 @@ inline Quat operator*(const Quat& a, const Quat& b) {
   const Vector3 u = a.getXYZ(), v = b.getXYZ();
   return Quat(a[3] * v + b[3] * u + cross(u, v), a[3] * b[3] - dot(u, v));
 }
-inline Quat& Quat::operator*=(const Quat& b) { return *this = *this * b; }
 inline float dot(const Quat& a, const Quat& b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2] + a[3] * b[3]; }
 inline float norm(const Quat& q) { return dot(q, q); }
 inline float length(const Quat& q) { return std::sqrt(dot(q, q)); }
@@ -264,8 +285,12 @@ inline Vector3 rotate(const Quat& q, const Vector3& v) {
   return v + q[3] * t + cross(u, t);
 }
 inline Quat lerp(float t, const Quat& a, const Quat& b) { return a + t * (b - a); }
+// Between two unit quaternions at constant speed, the shorter way round.
 Quat slerp(float t, const Quat& unit_a, const Quat& unit_b);
+// b where choose_b is true, else a.
 inline Quat select(const Quat& a, const Quat& b, bool choose_b) { return choose_b ? b : a; }
+
+inline Quat& Quat::operator*=(const Quat& b) { return *this = *this * b; }
 
 }  // namespace Aos
 }  // namespace Scalar

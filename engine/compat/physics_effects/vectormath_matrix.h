@@ -8,8 +8,11 @@ namespace Vectormath {
 namespace Scalar {
 namespace Aos {
 
+// 3 x 3 numbers, by columns.
 class Matrix3 {
  public:
+  // Zeros, or made of columns, of one number, of a rotation (angles in rad) or of scales; read and set by columns, rows and elements
+  // (column, row).
   Matrix3() = default;
   Matrix3(const Vector3& c0, const Vector3& c1, const Vector3& c2) : c_{c0, c1, c2} {}
   explicit Matrix3(float all) : c_{Vector3(all), Vector3(all), Vector3(all)} {}
@@ -51,13 +54,14 @@ class Matrix3 {
  private:
   Vector3 c_[3];
 };
+// Sums, products with numbers, vectors and matrices, the transpose, the determinant, the inverse where it is not 0, and arithmetic
+// by element.
 inline Matrix3 operator+(Matrix3 a, const Matrix3& b) { return a += b; }
 inline Matrix3 operator-(Matrix3 a, const Matrix3& b) { return a -= b; }
 inline Matrix3 operator*(Matrix3 a, float s) { return a *= s; }
 inline Matrix3 operator*(float s, Matrix3 a) { return a *= s; }
 inline Vector3 operator*(const Matrix3& m, const Vector3& v) { return m[0] * v[0] + m[1] * v[1] + m[2] * v[2]; }
 inline Matrix3 operator*(const Matrix3& a, const Matrix3& b) { return Matrix3(a * b[0], a * b[1], a * b[2]); }
-inline Matrix3& Matrix3::operator*=(const Matrix3& b) { return *this = *this * b; }
 inline Matrix3 transpose(const Matrix3& m) { return Matrix3(m.getRow(0), m.getRow(1), m.getRow(2)); }
 inline float determinant(const Matrix3& m) { return dot(m[0], cross(m[1], m[2])); }
 inline Matrix3 inverse(const Matrix3& m) {
@@ -72,6 +76,9 @@ inline Matrix3 crossMatrix(const Vector3& v) {
   return Matrix3(Vector3(0, v[2], -v[1]), Vector3(-v[2], 0, v[0]), Vector3(v[1], -v[0], 0));
 }
 
+inline Matrix3& Matrix3::operator*=(const Matrix3& b) { return *this = *this * b; }
+
+// a b^T, v^T m, m times a diagonal matrix, and a diagonal matrix times m.
 inline Matrix3 outer(const Vector3& a, const Vector3& b) { return Matrix3(a * b[0], a * b[1], a * b[2]); }
 inline Vector3 rowMul(const Vector3& v, const Matrix3& m) { return transpose(m) * v; }
 inline Matrix3 appendScale(const Matrix3& m, const Vector3& s) { return Matrix3(m[0] * s[0], m[1] * s[1], m[2] * s[2]); }
@@ -80,6 +87,7 @@ inline Matrix3 prependScale(const Vector3& s, const Matrix3& m) { return mulPerE
 // A linear map followed by a translation.
 class Transform3 {
  public:
+  // Made of both, of columns, or of a rotation (angles in rad), translation or scale alone; column 3 is the translation.
   Transform3() = default;
   Transform3(const Matrix3& m, const Vector3& t) : upper_(m), translation_(t) {}
   Transform3(const Quat& q, const Vector3& t) : upper_(q), translation_(t) {}
@@ -121,6 +129,7 @@ class Transform3 {
   Matrix3 upper_;
   Vector3 translation_;
 };
+// A vector is turned, a point is moved too; the product does the right one first. orthoInverse() is for rotations.
 inline Vector3 operator*(const Transform3& t, const Vector3& v) { return t.getUpper3x3() * v; }
 inline Point3 operator*(const Transform3& t, const Point3& p) {
   return Point3(t.getUpper3x3() * Vector3(p) + t.getTranslation());
@@ -128,7 +137,6 @@ inline Point3 operator*(const Transform3& t, const Point3& p) {
 inline Transform3 operator*(const Transform3& a, const Transform3& b) {
   return Transform3(a.getUpper3x3() * b.getUpper3x3(), a.getUpper3x3() * b.getTranslation() + a.getTranslation());
 }
-inline Transform3& Transform3::operator*=(const Transform3& b) { return *this = *this * b; }
 inline Transform3 inverse(const Transform3& t) {
   const Matrix3 m = inverse(t.getUpper3x3());
   return Transform3(m, -(m * t.getTranslation()));
@@ -138,8 +146,13 @@ inline Transform3 orthoInverse(const Transform3& t) {
   return Transform3(m, -(m * t.getTranslation()));
 }
 
+inline Transform3& Transform3::operator*=(const Transform3& b) { return *this = *this * b; }
+
+// 4 x 4 numbers, by columns.
 class Matrix4 {
  public:
+  // Zeros, or made of columns, of a rotation (angles in rad) and translation, of scales or of one number; read and set by columns,
+  // rows and elements (column, row).
   Matrix4() = default;
   Matrix4(const Vector4& c0, const Vector4& c1, const Vector4& c2, const Vector4& c3) : c_{c0, c1, c2, c3} {}
   Matrix4(const Matrix3& m, const Vector3& t) : c_{Vector4(m[0]), Vector4(m[1]), Vector4(m[2]), Vector4(t, 1.0f)} {}
@@ -180,6 +193,7 @@ class Matrix4 {
  private:
   Vector4 c_[4];
 };
+// Products and sums. Vectors have w = 0, points w = 1.
 inline Vector4 operator*(const Matrix4& m, const Vector4& v) {
   return m[0] * v[0] + m[1] * v[1] + m[2] * v[2] + m[3] * v[3];
 }
@@ -194,6 +208,7 @@ inline Matrix4 operator-(const Matrix4& a, const Matrix4& b) { return Matrix4(a[
 // Of a matrix whose last row is (0, 0, 0, 1).
 inline Matrix4 affineInverse(const Matrix4& m) { return Matrix4(inverse(Transform3(m.getUpper3x3(), m.getTranslation()))); }
 inline Matrix4 orthoInverse(const Matrix4& m) { return Matrix4(orthoInverse(Transform3(m.getUpper3x3(), m.getTranslation()))); }
+// Rows become columns.
 inline Matrix4 transpose(const Matrix4& m) {
   Matrix4 t;
   for (int i = 0; i < 4; ++i)

@@ -29,7 +29,16 @@ struct alignas(32) ContactPointRows {
   Lane approach_speed;      // m/s, normal velocity before the step; negative: approaching
 };
 
+// Resistance to turning, of the batches that have any: a torque about the normal, and one across it.
+struct alignas(32) RollingRows {
+  Lane rolling;     // m, most torque across the normal for each newton of normal force
+  Lane torsional;   // m, the same about the normal
+  Lane mass;        // kg m^2, of the turn about any axis
+  Lane impulse[3];  // N m s, on B, world axes, over the sub-step
+};
+
 struct alignas(32) ContactRows {
+  RollingRows* rolling;       // null in most batches
   int32_t body_a[kRowLanes];  // index of the solver body; the last one is a dummy at rest
   int32_t body_b[kRowLanes];
   uint32_t writable_a;  // bit i: lane i may change its body A
@@ -37,15 +46,19 @@ struct alignas(32) ContactRows {
   uint32_t num_points;       // the most of any lane, 1 .. 4; missing points have zero mass
   uint32_t has_restitution;  // 0 or 1: some lane bounces
   uint32_t is_new;           // bit i: nothing is known of the impulses of lane i
+  uint32_t bounces_in_order;  // bit i: impacts of lane i are events within the step; else they count at its end
+  uint32_t has_bounced;       // 0 or 1: some lane did when impacts were last looked for
   alignas(32) Lane normal[3];  // unit, from A to B
   Lane tangent[3];           // unit; the second tangent is normal x tangent
-  Lane center_a[3];          // m, mean of the arms: friction acts at center + spread * (arm - center)
+  Lane center_a[3];          // m, mean of the arms: friction acts at center + friction_spread * (arm - center)
   Lane center_b[3];
   // 1: the contact point turns with the body; 0: it stays below, as on a ball that rolls.
   Lane turns_a;
   Lane turns_b;
   Lane friction;
+  Lane friction_spread;  // share of the distance between a point and the centre at which its friction acts
   Lane restitution;
+  Lane fall;  // m/s^2, acceleration of B against A along the normal, of lanes that bounce in order
   Lane bias_rate;
   Lane mass_scale;
   Lane impulse_scale;
@@ -58,7 +71,6 @@ struct ContactSolveParams {
   Softness moving;        // of a contact between two bodies that move
   Softness fixed;         // of a contact with something that does not give way
   float max_push_speed;   // m/s at which overlap is resolved at most
-  float friction_spread;  // share of the distance between a point and the centre at which its friction acts
   float restitution_threshold;  // m/s: slower impacts do not bounce
 };
 

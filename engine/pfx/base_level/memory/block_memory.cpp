@@ -13,6 +13,21 @@ thread_local BlockMemory* current_memory = nullptr;
 
 constexpr size_t kSteps = 4;  // classes to a doubling, and those below the first
 
+class Locked {
+ public:
+  explicit Locked(MemoryLock* lock) : lock_(lock) {
+    if (lock_ != nullptr) lock_->lock();
+  }
+  ~Locked() {
+    if (lock_ != nullptr) lock_->unlock();
+  }
+  Locked(const Locked&) = delete;
+  Locked& operator=(const Locked&) = delete;
+
+ private:
+  MemoryLock* lock_;
+};
+
 void* fromHeap(size_t bytes) { return ::operator new(bytes, std::align_val_t{BlockMemory::kAlignment}); }
 
 }  // namespace
@@ -22,9 +37,13 @@ BlockMemory* currentMemory() { return current_memory; }
 MemoryScope::MemoryScope(BlockMemory* memory) : before_(current_memory) { current_memory = memory; }
 MemoryScope::~MemoryScope() { current_memory = before_; }
 
-BlockMemory::BlockMemory(std::span<std::byte> block) : block_(block), has_block_(true) {
+void BlockMemory::requireAligned(std::span<const std::byte> block) {
   if (reinterpret_cast<uintptr_t>(block.data()) % kAlignment != 0)
     throw std::invalid_argument("memory: the block is not aligned to " + std::to_string(kAlignment) + " bytes");
+}
+
+BlockMemory::BlockMemory(std::span<std::byte> block, MemoryLock* lock) : block_(block), has_block_(true), lock_(lock) {
+  requireAligned(block);
 }
 
 // Classes 0 to 3 hold 1 to 4 units of the alignment, the next four 5, 6, 7 and 8 of them, then 10, 12, 14, 16, ...
@@ -44,7 +63,7 @@ size_t BlockMemory::sizeOf(size_t size_class) {
 void* BlockMemory::allocate(size_t bytes) {
   const size_t size_class = classOf(bytes), size = sizeOf(size_class);
   if (size_class >= kClasses) throw std::bad_alloc();
-  const std::lock_guard lock(mutex_);
+  const Locked locked(lock_);
   SizeClass& c = classes_[size_class];
   if (c.in_block != nullptr) {
     void* place = c.in_block;
@@ -63,7 +82,7 @@ void* BlockMemory::allocate(size_t bytes) {
 }
 
 void BlockMemory::deallocate(void* place, size_t bytes) noexcept {
-  const std::lock_guard lock(mutex_);
+  const Locked locked(lock_);
   SizeClass& c = classes_[classOf(bytes)];
   const auto offset = reinterpret_cast<uintptr_t>(place) - reinterpret_cast<uintptr_t>(block_.data());
   if (has_block_ && offset < block_.size()) {

@@ -7,22 +7,32 @@
 
 #include <array>
 #include <cstddef>
-#include <mutex>
 #include <span>
 
 namespace pfx {
+
+// Keeps threads apart where several share a memory; this floor knows none of its own.
+class MemoryLock {
+ public:
+  virtual void lock() = 0;
+  virtual void unlock() = 0;
+
+ protected:
+  ~MemoryLock() = default;
+};
 
 class BlockMemory {
  public:
   static constexpr size_t kAlignment = 64;  // bytes, of the block and of everything in it
 
-  BlockMemory() = default;  // the heap
+  explicit BlockMemory(MemoryLock* lock = nullptr) : lock_(lock) {}  // the heap
   // Throws std::invalid_argument for a block that is not aligned.
-  explicit BlockMemory(std::span<std::byte> block);
+  explicit BlockMemory(std::span<std::byte> block, MemoryLock* lock = nullptr);
+  static void requireAligned(std::span<const std::byte> block);  // throws likewise
   BlockMemory(const BlockMemory&) = delete;
   BlockMemory& operator=(const BlockMemory&) = delete;
 
-  // Safe from any thread. What the block has no room for comes from the heap, and is missing(). Throws std::bad_alloc
+  // Safe from any thread if there is a lock. What the block has no room for comes from the heap, and is missing(). Throws std::bad_alloc
   // where that is full as well.
   void* allocate(size_t bytes);
   void deallocate(void* place, size_t bytes) noexcept;
@@ -48,7 +58,7 @@ class BlockMemory {
   bool has_block_ = false;
   size_t top_ = 0;  // bytes, of the block that were ever in use, and beyond its end what would have been
   std::array<SizeClass, kClasses> classes_;
-  std::mutex mutex_;
+  MemoryLock* lock_;
 };
 
 // What containers that are made by this thread take their memory from; null: the heap.

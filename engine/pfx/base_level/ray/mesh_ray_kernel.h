@@ -175,42 +175,72 @@ struct MeshRayKernel {
 
   // A ray half way.
   struct Journey {
-    int size = 1;
+    Entry next = {0, 0.0f};
+    int size = 0;
     Entry stack[kStack];
-    Journey() { stack[0] = {0, 0.0f}; }
+    Journey() {}
   };
 
-  // Opens the nearest node, or tests the nearest leaf, that the ray still has before it.
-  static void step(const MeshRayView& m, const MeshRay& ray, Journey& journey, MeshRayHit& hit) {
+  // The nearer of two children, the other one on the stack.
+  static Entry nearerOf(const Entry& a, const Entry& b, Journey& journey) {
+    const bool swap = b.t < a.t;
+    journey.stack[journey.size++] = swap ? a : b;
+    return swap ? b : a;
+  }
+
+  // Puts what the ray meets of a node on the stack, but for the nearest child, which it returns; kNoChild: none. Rays
+  // mostly meet one or two, and a sort would only mislead the processor's guesses.
+  static Entry open(const MeshRayView& m, const MeshRay& ray, uint32_t index, float t_max, Journey& journey) {
     using Node = typename Isa::template NodeType<quantized>;
     const auto* nodes = reinterpret_cast<const Node*>(m.nodes);
-    const Entry entry = journey.stack[--journey.size];
-    if (entry.t > hit.t) return;
-    if (isLeaf(entry.child)) {
-      leaf(m, ray, leafFirst(entry.child), leafCount(entry.child), hit);
-      return;
-    }
-    const Node& node = nodes[entry.child];
+    const Node& node = nodes[index];
     alignas(32) float t_near[8];
-    unsigned mask = Isa::testBoxes(node.bounds, m, ray, hit.t, t_near);
-    // The nearest child ends up on top of the stack.
-    const int bottom = journey.size;
-    for (; mask != 0; mask &= mask - 1) {
+    unsigned mask = Isa::testBoxes(node.bounds, m, ray, t_max, t_near);
+    const auto next = [&] {
       const int i = __builtin_ctz(mask);
-      const Entry child = {node.child[i], t_near[i]};
+      mask &= mask - 1;
+      if (node.child[i] != kNoChild) prefetch(m, nodes, node.child[i]);
+      return Entry{node.child[i], t_near[i]};
+    };
+    if (mask == 0) return {kNoChild, 0.0f};
+    const Entry first = next();
+    if (mask == 0) return first;
+    const Entry second = next();
+    if (second.child == kNoChild) return first;
+    const int bottom = journey.size;
+    Entry nearest = nearerOf(first, second, journey);
+    while (mask != 0) {
+      const Entry child = next();
       if (child.child == kNoChild) break;
-      prefetch(m, nodes, child.child);
+      const Entry far = child.t < nearest.t ? nearest : child;
+      nearest = child.t < nearest.t ? child : nearest;
       int place = journey.size++;
-      for (; place > bottom && journey.stack[place - 1].t < child.t; --place) {
+      for (; place > bottom && journey.stack[place - 1].t < far.t; --place) {
         journey.stack[place] = journey.stack[place - 1];
       }
-      journey.stack[place] = child;
+      journey.stack[place] = far;
+    }
+    return nearest;
+  }
+
+  // Opens a node, or tests a leaf, and goes on to the nearest that the ray still has before it.
+  static void step(const MeshRayView& m, const MeshRay& ray, Journey& journey, MeshRayHit& hit) {
+    const MeshChild here = journey.next.child;
+    if (isLeaf(here)) {
+      leaf(m, ray, leafFirst(here), leafCount(here), hit);
+      journey.next.child = kNoChild;
+    } else {
+      journey.next = open(m, ray, here, hit.t, journey);
+    }
+    while (journey.next.child == kNoChild && journey.size > 0) {
+      journey.next = journey.stack[--journey.size];
+      if (journey.next.t > hit.t) journey.next.child = kNoChild;
     }
   }
 
   static void trace(const MeshRayView& m, const MeshRay& ray, MeshRayHit& hit) {
     Journey journey;
-    while (journey.size > 0) step(m, ray, journey, hit);
+    while (journey.next.child != kNoChild) step(m, ray, journey, hit);
   }
 
   // Several rays in turn, one step each, so that each waits for memory while the others compute.
@@ -222,7 +252,7 @@ struct MeshRayKernel {
       for (int k = 0; k < count;) {
         const int i = active[k];
         step(m, rays[i], journeys[i], hits[i]);
-        if (journeys[i].size > 0) {
+        if (journeys[i].next.child != kNoChild) {
           ++k;
         } else {
           active[k] = active[--count];

@@ -1,5 +1,5 @@
 // Collision of a world, and which of its results the solver gets.
-#include <cmath>
+#include <algorithm>
 
 #include "pfx/high_level/pipeline/stages.h"
 #include "pfx/high_level/world/world_impl.h"
@@ -21,6 +21,15 @@ bool isRound(const Collidable& c) {
   return type == ShapeType::Sphere || type == ShapeType::Capsule || type == ShapeType::Cylinder;
 }
 
+// Rolling resistance is for what rolls.
+void addResistance(const World::Impl& w, ContactConstraint& c) {
+  const RigidBody &a = w.store.bodies[c.solver_a], &b = w.store.bodies[c.solver_b];
+  if (c.round_a || c.round_b) c.rolling_resistance = std::max(a.rolling_resistance, b.rolling_resistance);
+  if (w.store.surfaces.empty()) return;
+  c.torsional_resistance =
+      std::max(w.store.surface(c.solver_a).torsional_resistance, w.store.surface(c.solver_b).torsional_resistance);
+}
+
 }  // namespace
 
 void gatherConstraints(World::Impl& w) {
@@ -38,8 +47,9 @@ void gatherConstraints(World::Impl& w) {
                                .writable_b = isDynamic(b.motion_type) && !one_way_a,
                                .round_a = isRound(w.store.collidables[pair.body_a]),
                                .round_b = isRound(w.store.collidables[pair.body_b]),
-                               .friction = std::sqrt(ba.friction * bb.friction),
-                               .restitution = 0.5f * (ba.restitution + bb.restitution)});
+                               .friction = mix(w.def.friction_mixing, ba.friction, bb.friction),
+                               .restitution = mix(w.def.restitution_mixing, ba.restitution, bb.restitution)});
+      addResistance(w, w.constraints.back());
       w.constraints.back().strain = w.strainOf(w.constraints.back());
       w.any_strained = w.any_strained || w.constraints.back().strain != ContactStrain::None;
     }
@@ -52,3 +62,22 @@ void gatherConstraints(World::Impl& w) {
 }
 
 }  // namespace pfx::stage
+
+namespace pfx {
+
+const Surface* World::Impl::beltOf(uint32_t body) const {
+  if (body >= store.surfaces.size() || isDynamic(store.states[body].motion_type)) return nullptr;
+  return store.surfaces[body].velocity.isZero() ? nullptr : &store.surfaces[body];
+}
+
+void World::Impl::rescaleImpulses(float next_substep) {
+  const float scale = substep > 0.0f ? next_substep / substep : 1.0f;
+  substep = next_substep;
+  if (scale == 1.0f) return;
+  for (const auto* list : {&pairs, &sleeping_pairs})
+    for (const Pair& pair : *list)
+      for (ContactManifold& m : contacts.manifolds(pair.contact_id))
+        for (ContactPoint& p : m.points) p.normal_impulse *= scale, p.friction_impulse *= scale;
+}
+
+}  // namespace pfx

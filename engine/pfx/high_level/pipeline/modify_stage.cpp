@@ -38,7 +38,9 @@ ContactModification modificationOf(const World::Impl& w, const ContactConstraint
                         .manifold = *c.manifold,
                         .user_data = {},
                         .friction = c.friction,
-                        .restitution = c.restitution};
+                        .restitution = c.restitution,
+                        .rolling_resistance = c.rolling_resistance,
+                        .torsional_resistance = c.torsional_resistance};
   const auto has_mesh = [&](uint32_t body) {
     return std::ranges::any_of(w.store.collidables[body].shapes(),
                                [](const Shape& s) { return s.type() == ShapeType::LargeMesh; });
@@ -54,7 +56,7 @@ ContactModification modificationOf(const World::Impl& w, const ContactConstraint
 
 bool isSound(const ContactModification& m) {
   return m.manifold.num_points > 0 && m.manifold.num_points <= kMaxContactPoints && m.manifold.normal.allFinite() &&
-         m.friction >= 0.0f && m.restitution >= 0.0f;
+         m.friction >= 0.0f && m.restitution >= 0.0f && m.rolling_resistance >= 0.0f && m.torsional_resistance >= 0.0f;
 }
 
 }  // namespace
@@ -68,6 +70,8 @@ void modifyContacts(World::Impl& w) {
     if (!w.contact_modifier(m) || !isSound(m)) return true;
     c.friction = m.friction;
     c.restitution = m.restitution;
+    c.rolling_resistance = m.rolling_resistance;
+    c.torsional_resistance = m.torsional_resistance;
     w.modified.push_back({m.manifold, c.manifold});
     c.manifold = &w.modified.back().manifold;
     return false;

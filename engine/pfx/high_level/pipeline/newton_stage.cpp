@@ -4,7 +4,8 @@
 // what the lighter body weighs: low in a tall stack, under something heavy. They let slip what only holds
 // while nothing gives way: stones of an arch, cards that lean. Each contact tells by its impulse, masses and
 // normal whether it is of that kind, so that a world in which nothing is strained pays for a comparison a
-// manifold.
+// manifold. Where bodies were set upon each other nobody knows the loads yet; a structure of which that is true throughout
+// is strained until its first step has told them.
 #include <algorithm>
 #include <cmath>
 
@@ -63,6 +64,16 @@ bool isResting(const World::Impl& w, const ContactConstraint& c) {
              .squaredNorm() < most * most;
 }
 
+bool leans(const World::Impl& w, const ContactConstraint& c) {
+  return std::abs(c.manifold->normal.dot(w.def.gravity)) < kLeaning * w.def.gravity.norm();
+}
+
+bool isTopHeavy(const World::Impl& w, const ContactConstraint& c) {
+  const float mass_a = w.store.bodies[c.solver_a].mass, mass_b = w.store.bodies[c.solver_b].mass;
+  const bool b_is_above = c.manifold->normal.dot(w.def.gravity) < 0.0f;
+  return !leans(w, c) && (b_is_above ? mass_b > kMassRatio * mass_a : mass_a > kMassRatio * mass_b);
+}
+
 NewtonParams newtonParams(const World::Impl& w) {
   return {.h = static_cast<double>(w.dt) / w.def.substeps,
           .substeps = w.def.substeps,
@@ -77,9 +88,11 @@ bool isSmall(const World::Impl& w, const ContactConstraint& c) {
   return lever < most * most;
 }
 
-// Whether every body that a constraint could move is moved by it, and none has a surface that moves by itself.
+// Whether every body that a constraint could move is moved by it, and none has a surface that moves by itself
+// or resists turning.
 bool isSymmetric(const World::Impl& w, const ContactConstraint& c) {
-  return w.motionOf(c.solver_a) == nullptr && w.motionOf(c.solver_b) == nullptr &&
+  const auto is_plain = [&](uint32_t body) { return w.motionOf(body) == nullptr && w.beltOf(body) == nullptr; };
+  return is_plain(c.solver_a) && is_plain(c.solver_b) && !resistsTurning(c) &&
          c.writable_a == isDynamic(w.store.states[c.solver_a].motion_type) &&
          c.writable_b == isDynamic(w.store.states[c.solver_b].motion_type);
 }
@@ -135,18 +148,28 @@ bool isAskedForBeside(World::Impl& w, uint32_t island, std::span<const uint32_t>
   return bodies <= kMostBodies && (any(isUnequal) || (any(isPressed) && isMostlyAtRest(w, contacts)));
 }
 
+bool isFresh(const ContactConstraint& c) { return impulseOf(*c.manifold) == 0.0f; }
+
+// Not for the moment: what has just touched is taken as strained for one step, in a structure that was set up as a whole.
+bool isStrained(const World::Impl& w, const ContactConstraint& c, size_t bodies) {
+  if (c.strain == ContactStrain::Leaning) return bodies <= kMostLeaningBodies;
+  return bodies <= kMostBodies && c.strain == ContactStrain::Loaded && (!isFresh(c) || isTopHeavy(w, c));
+}
+
 bool isAskedForAlone(const World::Impl& w, uint32_t island) {
   const size_t bodies = w.contact_islands.bodies(island).size();
+  if (bodies > kMostSmallBodies) return false;
+  bool strained = false, set_up = bodies <= kMostBodies, some_load = false;
+  size_t small = 0;
   const auto contacts = contactsOf(w, island);
-  const auto isStrained = [&](uint32_t i) {
-    const ContactStrain strain = w.constraints[i].strain;
-    return (bodies <= kMostBodies && strain == ContactStrain::Loaded) ||
-           (bodies <= kMostLeaningBodies && strain == ContactStrain::Leaning);
-  };
-  const auto isSmallHere = [&](uint32_t i) { return isSmall(w, w.constraints[i]); };
-  const auto mostlySmall = [&] { return 2 * std::ranges::count_if(contacts, isSmallHere) > std::ssize(contacts); };
-  return bodies <= kMostSmallBodies && (std::ranges::any_of(contacts, isStrained) || mostlySmall()) &&
-         isMostlyAtRest(w, contacts);
+  for (uint32_t i : contacts) {
+    const ContactConstraint& c = w.constraints[i];
+    strained = strained || isStrained(w, c, bodies);
+    set_up = set_up && isFresh(c);
+    some_load = some_load || c.strain == ContactStrain::Loaded;
+    small += isSmall(w, c);
+  }
+  return (strained || (set_up && some_load) || 2 * small > contacts.size()) && isMostlyAtRest(w, contacts);
 }
 
 bool isAskedFor(World::Impl& w, uint32_t island) {
@@ -224,15 +247,12 @@ void giveBack(World::Impl& w, const NewtonTask& task) {
 }  // namespace
 
 ContactStrain World::Impl::strainOf(const ContactConstraint& c) const {
-  if (!c.writable_a || !c.writable_b) return ContactStrain::None;
-  const float mass_a = store.bodies[c.solver_a].mass, mass_b = store.bodies[c.solver_b].mass;
-  const float height = -c.manifold->normal.dot(def.gravity), gravity = def.gravity.norm();
-  if (gravity == 0.0f) return ContactStrain::None;
-  if (impulseOf(*c.manifold) > kLoad * std::min(mass_a, mass_b) * fallSpeed(*this)) return ContactStrain::Loaded;
-  const float top = height > 0.0f ? mass_b : mass_a, bottom = height > 0.0f ? mass_a : mass_b;
-  const bool leans = std::abs(height) < kLeaning * gravity;
-  if (top > kMassRatio * bottom && !leans) return ContactStrain::Loaded;
-  if (leans && !c.round_a && !c.round_b) return ContactStrain::Leaning;
+  if (!c.writable_a || !c.writable_b || def.gravity.isZero()) return ContactStrain::None;
+  const float lighter = std::min(store.bodies[c.solver_a].mass, store.bodies[c.solver_b].mass);
+  const float impulse = impulseOf(*c.manifold);
+  if (impulse > kLoad * lighter * fallSpeed(*this) || isTopHeavy(*this, c)) return ContactStrain::Loaded;
+  if (leans(*this, c)) return c.round_a || c.round_b ? ContactStrain::None : ContactStrain::Leaning;
+  if (impulse == 0.0f && isResting(*this, c)) return ContactStrain::Loaded;
   return isSmall(*this, c) ? ContactStrain::Small : ContactStrain::None;
 }
 

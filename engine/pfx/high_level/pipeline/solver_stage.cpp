@@ -103,15 +103,23 @@ void beginComponent(World::Impl& w, JointComponent& c, const DirectStepParams& p
 
 namespace {
 
-// From bodies to solver bodies. A contact on a moving mesh is held by a solver body of its own behind those of the
+// m/s, world, in the plane of a contact.
+Vec3 beltVelocity(const RigidState& s, const Surface& belt, const Vec3& normal) {
+  const Vec3 v = s.orientation * belt.velocity;
+  return v - v.dot(normal) * normal;
+}
+
+// From bodies to solver bodies. A contact on a moving mesh or a belt is held by a solver body of its own behind those of the
 // bodies, which goes with the surface.
 void numberConstraints(World::Impl& w) {
   for (uint32_t k = 0; k < w.solved.size(); ++k) w.solver_index[w.solved[k]] = k;
   w.surfaces.clear();
   const auto numbered = [&](uint32_t body, const ContactManifold& m) {
     const MeshMotion* motion = w.motionOf(body);
-    if (motion == nullptr) return w.solver_index[body];
-    w.surfaces.push_back({body, w.surfaceVelocity(body, m, *motion)});
+    const Surface* belt = w.beltOf(body);
+    if (motion == nullptr && belt == nullptr) return w.solver_index[body];
+    w.surfaces.push_back({body, motion ? w.surfaceVelocity(body, m, *motion) : w.store.states[body].linear_velocity});
+    if (belt) w.surfaces.back().velocity += beltVelocity(w.store.states[body], *belt, m.normal);
     return static_cast<uint32_t>(w.solved.size() + w.surfaces.size() - 1);
   };
   for (ContactConstraint& c : w.constraints) {

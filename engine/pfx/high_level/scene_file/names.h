@@ -16,6 +16,12 @@ inline constexpr NamedValue<JointSolver> kJointSolvers[] = {
 inline constexpr NamedValue<ContactSolver> kContactSolvers[] = {
     {"auto", ContactSolver::Auto}, {"soft", ContactSolver::Soft}, {"newton", ContactSolver::Newton}};
 
+inline constexpr NamedValue<Mixing> kMixings[] = {{"geometric-mean", Mixing::GeometricMean},
+                                                  {"mean", Mixing::Mean},
+                                                  {"smaller", Mixing::Smaller},
+                                                  {"larger", Mixing::Larger},
+                                                  {"product", Mixing::Product}};
+
 inline constexpr NamedValue<MotionType> kMotionTypes[] = {{"fixed", MotionType::Fixed},
                                                           {"active", MotionType::Active},
                                                           {"keyframe", MotionType::Keyframe},

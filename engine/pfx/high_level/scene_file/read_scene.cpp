@@ -74,6 +74,8 @@ class SceneReader {
     e.read("substeps", w.substeps);
     e.readName("joint-solver", w.joint_solver, scene_names::kJointSolvers);
     e.readName("contact-solver", w.contact_solver, scene_names::kContactSolvers);
+    e.readName("friction-mixing", w.friction_mixing, scene_names::kMixings);
+    e.readName("restitution-mixing", w.restitution_mixing, scene_names::kMixings);
     e.read("sleeping", w.sleeping);
     e.read("sleep-velocity", w.sleep_velocity);
     e.read("sleep-steps", w.sleep_steps);
@@ -93,6 +95,8 @@ class SceneReader {
     e.read("friction", def.friction);
     e.read("restitution", def.restitution);
     e.read("rolling-resistance", def.rolling_resistance);
+    e.read("torsional-resistance", def.surface.torsional_resistance);
+    e.read("surface-velocity", def.surface.velocity);
     e.read("linear-damping", def.linear_damping);
     e.read("angular-damping", def.angular_damping);
   }

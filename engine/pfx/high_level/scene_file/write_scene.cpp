@@ -87,6 +87,10 @@ class SceneWriter {
     set(node, "joint-solver", nameOf(scene_names::kJointSolvers, w.joint_solver));
     if (w.contact_solver != WorldDef{}.contact_solver)
       set(node, "contact-solver", nameOf(scene_names::kContactSolvers, w.contact_solver));
+    if (w.friction_mixing != WorldDef{}.friction_mixing)
+      set(node, "friction-mixing", nameOf(scene_names::kMixings, w.friction_mixing));
+    if (w.restitution_mixing != WorldDef{}.restitution_mixing)
+      set(node, "restitution-mixing", nameOf(scene_names::kMixings, w.restitution_mixing));
     set(node, "sleeping", w.sleeping);
     set(node, "sleep-velocity", w.sleep_velocity);
     set(node, "sleep-steps", w.sleep_steps);
@@ -157,6 +161,9 @@ class SceneWriter {
     set(node, "friction", b.friction);
     set(node, "restitution", b.restitution);
     setUnless(node, "rolling-resistance", b.rolling_resistance, usual.rolling_resistance);
+    const Surface surface = world_.surface(i);
+    setUnless(node, "torsional-resistance", surface.torsional_resistance, usual.surface.torsional_resistance);
+    setUnless(node, "surface-velocity", surface.velocity, usual.surface.velocity);
     setUnless(node, "linear-damping", b.linear_damping, usual.linear_damping);
     setUnless(node, "angular-damping", b.angular_damping, usual.angular_damping);
     setUnless(node, "gravity-scale", b.gravity_scale, usual.gravity_scale);

@@ -22,6 +22,12 @@ void requireNotNegative(const BodyDef& def, float x, const char* field) {
     reject(def, std::string(field) + " = " + std::to_string(x) + ", must be >= 0");
 }
 
+void check(std::string_view name, const Surface& s) {
+  const auto fails = [&](const char* what) { throw std::invalid_argument("body \"" + std::string(name) + "\": " + what); };
+  if (!s.velocity.allFinite()) fails("surface velocity is not finite");
+  if (!(s.torsional_resistance >= 0.0f) || !std::isfinite(s.torsional_resistance)) fails("torsional resistance must be >= 0");
+}
+
 void check(const BodyDef& def) {
   requireFinite(def, def.pose.position, "position");
   requireFinite(def, def.linear_velocity, "linear velocity");
@@ -37,6 +43,7 @@ void check(const BodyDef& def) {
   requireNotNegative(def, def.linear_damping, "linear damping");
   requireNotNegative(def, def.angular_damping, "angular damping");
   requireNotNegative(def, def.rolling_resistance, "rolling resistance");
+  check(def.name, def.surface);
 }
 
 RigidState makeState(const BodyDef& def, uint32_t index) {
@@ -99,6 +106,7 @@ BodyId BodyStore::add(const BodyDef& def) {
   size[index] = collidable.half_extent.minCoeff();
   radius[index] = (collidable.center.cwiseAbs() + collidable.half_extent).norm();
   names[index] = def.name;
+  setSurface(index, def.surface);
   ++generations[index];
   return {index, generations[index]};
 }
@@ -119,6 +127,14 @@ void BodyStore::setShapes(uint32_t index, std::span<const Shape> new_shapes) {
   radius[index] = (collidable.center.cwiseAbs() + collidable.half_extent).norm();
 }
 
+void BodyStore::setSurface(uint32_t index, const Surface& surface) {
+  check(names[index], surface);
+  if (index >= surfaces.size() && surface == Surface{}) return;
+  if (index >= surfaces.size()) surfaces.resize(index + size_t(1));
+  surfaces[index] = surface;
+  while (!surfaces.empty() && surfaces.back() == Surface{}) surfaces.pop_back();
+}
+
 void BodyStore::attachShapes(uint32_t index, Collidable& collidable) {
   if (shape_trees.size() <= index) shape_trees.resize(index + 1);
   const Vector<Shape>& all = shapes[index];
@@ -136,6 +152,7 @@ void BodyStore::remove(uint32_t index) {
   states[index].body_id = index;
   collidables[index] = Collidable{};
   names[index].clear();
+  setSurface(index, {});
   ++generations[index];
   free_slots.push_back(index);
 }

@@ -19,6 +19,7 @@ struct BodyStore {
   Vector<float> size;    // m, smallest half extent: the length that contact margins are measured by
   Vector<float> radius;  // m, about the centre of mass
   Vector<String> names;
+  Vector<Surface> surfaces;  // by body, up to the last one that has any
   Vector<uint32_t> generations;  // odd while the body exists
   Vector<uint32_t> free_slots;
   Deque<Vector<Shape>> shapes;  // by body; addresses stay, collidables point here
@@ -27,6 +28,8 @@ struct BodyStore {
   // Throws std::invalid_argument naming the body and the field.
   BodyId add(const BodyDef& def);
   void remove(uint32_t index);
+  Surface surface(uint32_t index) const { return index < surfaces.size() ? surfaces[index] : Surface{}; }
+  void setSurface(uint32_t index, const Surface& surface);  // throws std::invalid_argument naming the body
   void attachShapes(uint32_t index, Collidable& collidable);  // has it refer to shapes[index]
   // Throws std::invalid_argument, and changes nothing, for no shape or one that is not valid.
   void setShapes(uint32_t index, std::span<const Shape> new_shapes);

@@ -45,6 +45,8 @@ struct ContactModification {
   std::array<uint32_t, kMaxContactPoints> user_data = {};    // of the triangle of each point; 0 where there is none
   float friction = 0.0f;
   float restitution = 0.0f;
+  float rolling_resistance = 0.0f;    // m
+  float torsional_resistance = 0.0f;  // m
 };
 
 // Called in the order of pairs, on the thread that steps. False: the bodies pass through each other here.

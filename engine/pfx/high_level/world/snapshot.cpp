@@ -15,7 +15,7 @@ namespace {
 
 using namespace snapshot_format;
 
-constexpr uint32_t kVersion = 3;
+constexpr uint32_t kVersion = 4;
 constexpr std::array<uint8_t, 8> kMagic = {'P', 'F', 'X', 'S', 'N', 'A', 'P', 0};
 constexpr size_t kHeaderBytes = 16, kSectionBytes = 20;
 
@@ -53,9 +53,10 @@ void ioWorld(A& a, Content& c) {
   io(a, d.substeps);
   ioEnum(a, d.joint_solver, JointSolver::Soft);
   ioEnum(a, d.contact_solver, ContactSolver::Newton);
+  ioEnum(a, d.friction_mixing, Mixing::Product), ioEnum(a, d.restitution_mixing, Mixing::Product);
   io(a, d.report_events), io(a, d.hit_speed);
   io(a, d.sleeping), io(a, d.sleep_velocity), io(a, d.sleep_steps), io(a, d.center), io(a, d.extent);
-  io(a, c.world.dt), io(a, c.world.step_count);
+  io(a, c.world.dt), io(a, c.world.substep), io(a, c.world.step_count);
   if constexpr (A::kReads) a.require(d.substeps >= 1, "substeps are below 1");
 }
 
@@ -79,6 +80,7 @@ template <class A>
 void ioBodies(A& a, Content& c) {
   BodyStore& s = c.world.store;
   io(a, s.states), io(a, s.bodies), io(a, s.inertias), io(a, s.size), io(a, s.radius), io(a, s.names);
+  io(a, s.surfaces);
   io(a, s.generations), io(a, s.free_slots);
   ioList(a, s.collidables, [](A& archive, Collidable& k) { io(archive, k.center), io(archive, k.half_extent); });
   KeptMeshes meshes{c.world.convex_meshes, c.world.large_meshes};
@@ -356,6 +358,7 @@ void takeOver(World::Impl& w, World::Impl& from, const Memory& memory) {
   from.def.simd = w.def.simd;
   w.def = from.def;
   w.dt = from.dt;
+  w.substep = from.substep;
   w.step_count = from.step_count;
   moveMeshes(from.convex_meshes, w.convex_meshes, from.store.shapes);
   moveMeshes(from.large_meshes, w.large_meshes, from.store.shapes);

@@ -73,6 +73,11 @@ struct KeptMeshes {
 };
 
 template <class A>
+void io(A& a, Surface& s) {
+  io(a, s.torsional_resistance), io(a, s.velocity);
+}
+
+template <class A>
 void io(A& a, PairCache& c) {
   io(a, c.b_in_a), io(a, c.axis), io(a, c.separation), io(a, c.radius_b), io(a, c.hint);
 }

@@ -124,6 +124,7 @@ void World::step(float dt) {
   if (dt == 0.0f) return;
   const MemoryScope scope(impl_->memory);
   impl_->dt = dt;
+  impl_->rescaleImpulses(dt / static_cast<float>(impl_->def.substeps));
   runStages(*impl_);
   impl_->forgetCounts();
   ++impl_->step_count;
@@ -147,6 +148,13 @@ RigidState& World::state(BodyId id) {
 RigidBody& World::body(BodyId id) {
   state(id);
   return impl_->store.bodies[id.index];
+}
+
+Surface World::surface(uint32_t index) const { return impl_->store.surface(index); }
+
+void World::setSurface(BodyId id, const Surface& surface) {
+  state(id);
+  impl_->store.setSurface(id.index, surface);
 }
 
 void World::moveKeyframe(BodyId id, const Transform& pose, float dt) {
@@ -283,7 +291,9 @@ uint32_t World::numIslands() const {
 IslandView World::island(uint32_t index) const {
   impl_->listIslands();
   const auto bodies = impl_->islands.bodies(index);
-  const RigidState& first = impl_->store.states[bodies.front()];
+  const std::vector<RigidState>& states = impl_->store.states;
+  const auto restless = [&](uint32_t a, uint32_t b) { return states[a].sleep_count < states[b].sleep_count; };
+  const RigidState& least_rested = states[*std::min_element(bodies.begin(), bodies.end(), restless)];
   const auto links = impl_->islands.links(index);
   const auto first_joint = std::lower_bound(links.begin(), links.end(), impl_->island_link_pairs.size());
   const auto num_contacts = static_cast<size_t>(first_joint - links.begin());
@@ -291,8 +301,8 @@ IslandView World::island(uint32_t index) const {
   return {.bodies = bodies,
           .contacts = std::span(impl_->island_pairs).subspan(offset, num_contacts),
           .joints = static_cast<uint32_t>(links.size() - num_contacts),
-          .asleep = first.asleep,
-          .sleep_timer = static_cast<float>(first.sleep_count) * impl_->dt};
+          .asleep = least_rested.asleep,
+          .sleep_timer = static_cast<float>(least_rested.sleep_count) * impl_->dt};
 }
 
 WorldCounts World::counts() const {

@@ -12,6 +12,7 @@
 #include "pfx/base_level/collision/pair.h"
 #include "pfx/base_level/rigid_body/rigid_body.h"
 #include "pfx/base_level/rigid_body/rigid_state.h"
+#include "pfx/base_level/rigid_body/surface.h"
 #include "pfx/base_level/shape/aabb.h"
 #include "pfx/base_level/shape/collidable.h"
 #include "pfx/base_level/simd_level.h"
@@ -39,6 +40,8 @@ struct WorldDef {
                      // cost of the solver rises in proportion
   JointSolver joint_solver = JointSolver::Auto;
   ContactSolver contact_solver = ContactSolver::Auto;
+  Mixing friction_mixing = Mixing::GeometricMean;  // of the bodies of a pair
+  Mixing restitution_mixing = Mixing::Mean;
   SimdLevel simd = SimdLevel::Auto;  // widest kernels to use; the result is the same for all
   int workers = 1;                   // threads, the caller included; the result is the same for any number
   bool sleeping = false;             // islands at rest are put to sleep
@@ -64,7 +67,8 @@ struct BodyDef {
   float friction = 0.6f;
   float linear_damping = 0.0f;      // 1/s
   float angular_damping = 0.0f;     // 1/s
-  float rolling_resistance = 0.0f;  // m
+  float rolling_resistance = 0.0f;  // m, see RigidBody
+  Surface surface = {};
   float gravity_scale = 1.0f;
   uint32_t filter_self = 0xffffffffu;
   uint32_t filter_target = 0xffffffffu;
@@ -177,6 +181,10 @@ class World {
   // Mutable access between steps. Wakes the island of the body.
   RigidState& state(BodyId id);
   RigidBody& body(BodyId id);
+
+  // What of its surface few bodies have. Throws std::invalid_argument for what addBody() would refuse.
+  Surface surface(uint32_t index) const;
+  void setSurface(BodyId id, const Surface& surface);
 
   // Moves a Keyframe body: it reaches `pose` at the end of the next step of dt seconds.
   void moveKeyframe(BodyId id, const Transform& pose, float dt);

@@ -74,6 +74,7 @@ struct World::Impl {
   Deque<ConvexMesh> convex_meshes;  // kept for shapes that point at them
   Deque<LargeMesh> large_meshes;
   float dt = 0.0f;  // s, of the step under way
+  float substep = 0.0f;  // s, in which the remembered impulses of contacts acted; 0: there are none
   uint64_t step_count = 0;
 
   Vector<uint32_t> active;  // awake dynamic bodies, ascending
@@ -165,6 +166,9 @@ struct World::Impl {
   ContactStrain strainOf(const ContactConstraint& constraint) const;  // solver_a, solver_b are indices of states
   const MeshMotion* motionOf(uint32_t body) const;  // of the moving mesh that it wears, or null
   Vec3 surfaceVelocity(uint32_t body, const ContactManifold& manifold, const MeshMotion& motion) const;  // m/s, world
+  // The belt that runs over a body, or null.
+  const Surface* beltOf(uint32_t body) const;
+  void rescaleImpulses(float next_substep);  // so that they stand for the same forces
   void refreshActive();
   void linkIslands();
   void hasChanged(uint32_t body);      // from outside: it stands elsewhere, is new, or is gone

@@ -1,4 +1,6 @@
 // A world in a block of the caller's, or on the heap. The block begins with the book of what is in it.
+#include <memory>
+#include <mutex>
 #include <new>
 #include <stdexcept>
 #include <string>
@@ -8,19 +10,32 @@
 namespace pfx {
 namespace {
 
-constexpr size_t kBookBytes =
-    (sizeof(BlockMemory) + BlockMemory::kAlignment - 1) / BlockMemory::kAlignment * BlockMemory::kAlignment;
+// Shared by the workers, whose scratch buffers grow.
+class WorldMemory final : public BlockMemory, private MemoryLock {
+ public:
+  WorldMemory() : BlockMemory(this) {}
+  explicit WorldMemory(std::span<std::byte> block) : BlockMemory(block, this) {}
 
-BlockMemory* makeMemory(std::span<std::byte> block) {
-  if (block.empty()) return new BlockMemory();
+ private:
+  void lock() override { mutex_.lock(); }
+  void unlock() override { mutex_.unlock(); }
+  std::mutex mutex_;
+};
+
+constexpr size_t kBookBytes =
+    (sizeof(WorldMemory) + BlockMemory::kAlignment - 1) / BlockMemory::kAlignment * BlockMemory::kAlignment;
+
+WorldMemory* makeMemory(std::span<std::byte> block) {
+  if (block.empty()) return new WorldMemory();
   if (block.size() < kBookBytes)
     throw std::length_error("world: a block of " + std::to_string(block.size()) + " bytes is too small");
-  return new (block.data()) BlockMemory(block.subspan(kBookBytes));
+  BlockMemory::requireAligned(block);
+  return new (block.data()) WorldMemory(block.subspan(kBookBytes));
 }
 
-void destroyMemory(BlockMemory* memory) {
+void destroyMemory(WorldMemory* memory) {
   if (!memory->hasBlock()) return delete memory;
-  memory->~BlockMemory();
+  memory->~WorldMemory();
 }
 
 }  // namespace
@@ -28,9 +43,16 @@ void destroyMemory(BlockMemory* memory) {
 World::World(const WorldDef& def, std::span<std::byte> block) {
   if (def.substeps < 1) throw std::invalid_argument("world: substeps must be >= 1");
   if (!def.gravity.allFinite()) throw std::invalid_argument("world: gravity is not finite");
-  BlockMemory* memory = makeMemory(block);
-  const MemoryScope scope(memory);
-  impl_.reset(new (memory->allocate(sizeof(Impl))) Impl(def));
+  std::unique_ptr<WorldMemory, void (*)(WorldMemory*)> memory(makeMemory(block), destroyMemory);
+  const MemoryScope scope(memory.get());
+  void* place = memory->allocate(sizeof(Impl));
+  try {
+    impl_.reset(new (place) Impl(def));
+  } catch (...) {
+    memory->deallocate(place, sizeof(Impl));
+    throw;
+  }
+  memory.release();  // it is the world's, which gives it back
   requireRoom();
 }
 
@@ -39,7 +61,7 @@ World::World(World&&) noexcept = default;
 World& World::operator=(World&&) noexcept = default;
 
 void World::Destroy::operator()(Impl* impl) const {
-  BlockMemory* memory = impl->memory;
+  auto* memory = static_cast<WorldMemory*>(impl->memory);
   impl->~Impl();
   memory->deallocate(impl, sizeof(Impl));
   destroyMemory(memory);

@@ -1,5 +1,7 @@
 #include "pfx/low_level/integrate/substep.h"
 
+#include <algorithm>
+
 namespace pfx {
 namespace {
 
@@ -28,6 +30,14 @@ constexpr float kSmoothFalls = 4.0f;
 
 // What is slower than this many is at rest or settles, and keeps the damping of the full drift.
 constexpr float kMovingFalls = 1.0f;
+
+// What of the lag still holds when the impulses of this sub-step have taken back some of the change it was made from.
+Vec3 remainingLag(const BodyMotion& m, const Vec3& v, float h) {
+  if (v == m.free_velocity) return 0.5f * h * (v - m.start_velocity);
+  const float whole = m.lag.squaredNorm();
+  if (whole == 0.0f) return m.lag;
+  return std::clamp(0.5f * h * (v - m.start_velocity).dot(m.lag) / whole, 0.0f, 1.0f) * m.lag;
+}
 
 // Levers and masses of contacts stay as they were at the start of the step. Where a slender body has turned away from
 // them, its small moment about its own axis gets in the way of levers that were along it, and impulses would spin it up
@@ -90,7 +100,8 @@ void integratePositions(std::span<SolverBody> bodies, std::span<const BodyMotion
   for (size_t i = 0; i < bodies.size(); ++i) {
     SolverBody& b = bodies[i];
     const BodyMotion& m = motions[i];
-    store(b.dp, load(b.dp) + (h * load(b.v) - m.lag));
+    const Vec3 v = load(b.v);
+    store(b.dp, load(b.dp) + (h * v - (m.keeps_pace ? remainingLag(m, v, h) : m.lag)));
     const Vec3 w = load(b.w);
     if (!m.inertia || m.inertia->spherical || w.squaredNorm() * h * h < kNegligibleTurn2) {
       setDeltaRotation(b, (expMap(h * w) * deltaRotation(b)).normalized());

@@ -39,7 +39,8 @@ void integrateVelocities(std::span<SolverBody> bodies, std::span<BodyMotion> mot
 // forces and the impulses of the last sub-step give, and the drift leaves it out: the trapezoidal rule, which is exact
 // under a constant force. It does so across gravity only, and for what moves: along gravity, what settles on others needs
 // the damping of the full drift (a pyramid of 20 rows sank twice as deep without). What changes a velocity by more than a
-// few sub-steps of free fall is an impact and no force, and is left alone.
+// few sub-steps of free fall is an impact and no force, and is left alone. What got no impulse in the sub-step is in free
+// flight, and follows it exactly.
 void setLag(std::span<const SolverBody> bodies, std::span<BodyMotion> motions, float h);
 
 // Positions and orientations after the sub-step; the inverse inertia follows.

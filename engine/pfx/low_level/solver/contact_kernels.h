@@ -18,6 +18,7 @@ struct ContactKernels {
                       const ContactSolveParams& params);
   Fn prepare;      // makes rows of what the set-up copied; SolverBody::dq holds the orientation meanwhile
   Fn warm_start;   // applies the impulses in the rows
+  Fn bounce;       // impacts within the sub-step to come, of lanes that bounce in order; before forces
   Fn settle;       // new contacts only: finds their impulses before anything moves
   Fn push;         // normal rows with bias: overlap is pushed out softly, gaps may close
   Fn relax;        // normal rows without push, then friction

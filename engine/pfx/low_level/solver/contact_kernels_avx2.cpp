@@ -3,7 +3,8 @@
 
 namespace pfx {
 
-const ContactKernels kContactKernelsAvx2 = {PFX_LANES::prepare, PFX_LANES::warmStart, PFX_LANES::settle,
-                                            PFX_LANES::push,    PFX_LANES::relax,     PFX_LANES::restitution, "avx2"};
+const ContactKernels kContactKernelsAvx2 = {PFX_LANES::prepare, PFX_LANES::warmStart,   PFX_LANES::bounce,
+                                            PFX_LANES::settle,  PFX_LANES::push,        PFX_LANES::relax,
+                                            PFX_LANES::restitution, "avx2"};
 
 }  // namespace pfx

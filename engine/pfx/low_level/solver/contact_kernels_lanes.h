@@ -73,15 +73,24 @@ inline F8 effectiveMass(const Batch& c, const V8& ra, const V8& rb, const V8& sa
   return axes * inv_mass + dot(ra, c.a.mass.inv_inertia * sa) + dot(rb, c.b.mass.inv_inertia * sb);
 }
 
+// The least moment of inertia that two bodies set against a turn, by the largest row sum of their inverse.
+inline F8 turningMass(const Batch& c) {
+  const S8 &a = c.a.mass.inv_inertia, &b = c.b.mass.inv_inertia;
+  const auto size = [](F8 x) { return max(x, F8::zero() - x); };
+  const F8 xy = size(a.xy + b.xy), xz = size(a.xz + b.xz), yz = size(a.yz + b.yz);
+  const F8 most = max(max(a.xx + b.xx + xy + xz, a.yy + b.yy + xy + yz), a.zz + b.zz + xz + yz);
+  return (F8::set(1.0f) / max(most, F8::set(1e-30f))) & (most > F8::zero());
+}
+
 // Turns what the set-up copied from the manifolds (see ContactPointRows) into rows.
 inline void prepare(ContactRows* rows, uint32_t count, SolverBody* bodies, const ContactSolveParams& params) {
-  const F8 zero = F8::zero(), one = F8::set(1.0f), tiny = F8::set(1e-30f),
-           spread = F8::set(params.friction_spread);
+  const F8 zero = F8::zero(), one = F8::set(1.0f), tiny = F8::set(1e-30f);
   for (uint32_t k = 0; k < count; ++k) {
     ContactRows& r = rows[k];
     Batch c(r, bodies);
     const Motion ma = loadMotion(c.a), mb = loadMotion(c.b);  // here: the pose at the start of the step
     const V8 n = V8::load(r.normal), t1 = V8::load(r.tangent), t2 = cross(n, t1);
+    const F8 spread = F8::load(r.friction_spread);
     // rests on something that does not give way
     const F8 both_move = (c.a.mass.inv_mass * c.b.mass.inv_mass) > zero;
     storeSoftness(r, both_move, params);
@@ -103,6 +112,7 @@ inline void prepare(ContactRows* rows, uint32_t count, SolverBody* bodies, const
     center_b = share * center_b;
     center_a.store(r.center_a);
     center_b.store(r.center_b);
+    if (r.rolling) turningMass(c).store(r.rolling->mass);
 
     for (uint32_t i = 0; i < r.num_points; ++i) {
       ContactPointRows& p = r.points[i];
@@ -130,12 +140,11 @@ inline void prepare(ContactRows* rows, uint32_t count, SolverBody* bodies, const
   }
 }
 
-inline void warmStart(ContactRows* rows, uint32_t count, SolverBody* bodies,
-                      const ContactSolveParams& params) {
-  const F8 spread = F8::set(params.friction_spread);
+inline void warmStart(ContactRows* rows, uint32_t count, SolverBody* bodies, const ContactSolveParams&) {
   for (uint32_t k = 0; k < count; ++k) {
     ContactRows& r = rows[k];
     Batch c(r, bodies);
+    const F8 spread = F8::load(r.friction_spread);
     const V8 n = V8::load(r.normal), t1 = V8::load(r.tangent), t2 = cross(n, t1);
     const V8 center_a = V8::load(r.center_a), center_b = V8::load(r.center_b);
     for (uint32_t i = 0; i < r.num_points; ++i) {
@@ -147,6 +156,131 @@ inline void warmStart(ContactRows* rows, uint32_t count, SolverBody* bodies,
     }
     c.store();
   }
+}
+
+// The lanes of a batch that a kernel works on. What the others carry stays.
+struct AllLanes {
+  F8 choose(F8 changed, F8) const { return changed; }
+  F8 frictionLimit2(F8 limit2, F8) const { return limit2; }
+};
+struct SomeLanes {
+  F8 mask;
+  F8 choose(F8 changed, F8 old) const { return select(mask, changed, old); }
+  F8 frictionLimit2(F8 limit2, F8) const { return limit2; }
+};
+// While overlaps are pushed apart, normal impulses are not those that bear; friction is held against what it was.
+struct SlidingLanes {
+  F8 mask;
+  F8 choose(F8 changed, F8 old) const { return select(mask, changed, old); }
+  F8 frictionLimit2(F8, F8 old2) const { return old2; }
+};
+
+// What is going to bounce is not to be slowed down before it has reached the surface.
+struct Bounce {
+  F8 inv_h;
+  F8 threshold;  // m/s, of the approach
+};
+inline F8 isYetToHit(const ContactRows& r, F8 separation, F8 vn, const Bounce& bounce) {
+  constexpr float kTouching = 0.01f;  // of the way of a sub-step
+  const F8 approach = F8::zero() - vn;
+  return (F8::load(r.restitution) > F8::zero()) & (approach > bounce.threshold) &
+         (separation * bounce.inv_h > F8::set(kTouching) * approach);
+}
+
+template <class Lanes>
+inline void relaxNormals(Batch& c, const V8& n, const Bounce& bounce, const Lanes& lanes) {
+  const F8 inv_h = bounce.inv_h;
+  const Motion ma = loadMotion(c.a), mb = loadMotion(c.b);
+  const V8 shift = mb.dp - ma.dp;
+  const ContactTurn turn_a = contactTurn(ma, n, F8::load(c.rows.turns_a)),
+                    turn_b = contactTurn(mb, n, F8::load(c.rows.turns_b));
+  const F8 zero = F8::zero();
+  for (uint32_t i = 0; i < c.rows.num_points; ++i) {
+    ContactPointRows& p = c.rows.points[i];
+    const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
+    const F8 s = F8::load(p.separation) + dot(n, shift + (contactShift(turn_b, arm_b) - contactShift(turn_a, arm_a)));
+    const F8 vn = dot(n, relativeVelocity(c, arm_a, arm_b));
+    const F8 old = F8::load(p.normal_impulse);
+    F8 found = max(old - F8::load(p.normal_mass) * (vn + max(s, zero) * inv_h), zero);
+    if (c.rows.has_restitution) found = select(isYetToHit(c.rows, s, vn, bounce), zero, found);
+    const F8 impulse = lanes.choose(found, old);
+    impulse.store(p.normal_impulse);
+    max(impulse, F8::load(p.max_normal_impulse)).store(p.max_normal_impulse);
+    apply(c, (impulse - old) * n, arm_a, arm_b);
+  }
+}
+
+// Smaller eigenvalue of a symmetric 2 x 2 matrix.
+inline F8 smallerEigenvalue(F8 m11, F8 m12, F8 m22) {
+  const F8 difference = m11 - m22, twice = m12 + m12;
+  return F8::set(0.5f) * ((m11 + m22) - sqrt(difference * difference + twice * twice));
+}
+
+// What sticks is stopped at once by the 2 x 2 block. What slides must be braked against its velocity, but the block turns
+// the impulse away from that where the body also turns; there a mass that is the same both ways takes its place, the
+// largest for which the projection converges.
+template <class Lanes>
+inline void solveFriction(Batch& c, const V8& n, const Lanes& lanes) {
+  ContactRows& r = c.rows;
+  const F8 spread = F8::load(r.friction_spread);
+  const V8 t1 = V8::load(r.tangent), t2 = cross(n, t1);
+  const V8 center_a = V8::load(r.center_a), center_b = V8::load(r.center_b);
+  const F8 friction = F8::load(r.friction);
+  for (uint32_t i = 0; i < r.num_points; ++i) {
+    ContactPointRows& p = r.points[i];
+    const V8 arm_a = frictionArm(center_a, V8::load(p.arm_a), spread);
+    const V8 arm_b = frictionArm(center_b, V8::load(p.arm_b), spread);
+    const V8 v = relativeVelocity(c, arm_a, arm_b);
+    const F8 v1 = dot(t1, v), v2 = dot(t2, v);
+    const F8 m11 = F8::load(p.tangent_mass[0]), m12 = F8::load(p.tangent_mass[1]),
+             m22 = F8::load(p.tangent_mass[2]);
+    const F8 old1 = F8::load(p.tangent_impulse[0]), old2 = F8::load(p.tangent_impulse[1]);
+    F8 x1 = old1 - (m11 * v1 + m12 * v2), x2 = old2 - (m12 * v1 + m22 * v2);
+    const F8 cone = friction * F8::load(p.normal_impulse);
+    const F8 limit2 = lanes.frictionLimit2(cone * cone, old1 * old1 + old2 * old2);
+    const F8 slides = x1 * x1 + x2 * x2 > limit2;
+    const F8 mass = smallerEigenvalue(m11, m12, m22);
+    x1 = select(slides, old1 - mass * v1, x1);
+    x2 = select(slides, old2 - mass * v2, x2);
+    const F8 length2 = x1 * x1 + x2 * x2;
+    const F8 scale = select(length2 > limit2, sqrt(limit2) / max(sqrt(length2), F8::set(1e-30f)), F8::set(1.0f));
+    x1 = lanes.choose(scale * x1, old1), x2 = lanes.choose(scale * x2, old2);
+    x1.store(p.tangent_impulse[0]);
+    x2.store(p.tangent_impulse[1]);
+    apply(c, (x1 - old1) * t1 + (x2 - old2) * t2, arm_a, arm_b);
+  }
+}
+
+// Torques that resist turning: a circle of those across the normal, and one about it, both as wide as the load.
+inline void resistTurning(Batch& c, const V8& n) {
+  RollingRows& r = *c.rows.rolling;
+  F8 load = F8::zero();
+  for (uint32_t i = 0; i < c.rows.num_points; ++i) load += F8::load(c.rows.points[i].normal_impulse);
+  const V8 old = V8::load(r.impulse);
+  const V8 wanted = old - F8::load(r.mass) * (c.b.velocity.w - c.a.velocity.w);
+  const F8 about = dot(wanted, n), twist = F8::load(r.torsional) * load, roll = F8::load(r.rolling) * load;
+  const V8 across = wanted - about * n;
+  const F8 length = sqrt(dot(across, across));
+  const F8 share = select(length > roll, roll / max(length, F8::set(1e-30f)), F8::set(1.0f));
+  const V8 impulse = share * across + max(min(about, twist), F8::zero() - twist) * n;
+  impulse.store(r.impulse);
+  c.a.velocity.w = c.a.velocity.w - c.a.mass.inv_inertia * (impulse - old);
+  c.b.velocity.w = c.b.velocity.w + c.b.mass.inv_inertia * (impulse - old);
+}
+
+// Lanes with a point whose friction is at its limit. What such friction did in the last sub-step may be more than what is
+// left to stop, and would drive a body back that comes to rest; so it is solved before the drift as well.
+inline F8 slidingLanes(const ContactRows& r) {
+  constexpr float kAtLimit = 0.999f;  // of the squared limit
+  const F8 zero = F8::zero(), friction = F8::load(r.friction);
+  F8 sliding = zero;
+  for (uint32_t i = 0; i < r.num_points; ++i) {
+    const ContactPointRows& p = r.points[i];
+    const F8 x1 = F8::load(p.tangent_impulse[0]), x2 = F8::load(p.tangent_impulse[1]);
+    const F8 limit = friction * F8::load(p.normal_impulse), length2 = x1 * x1 + x2 * x2;
+    sliding = sliding | ((length2 > zero) & (length2 > F8::set(kAtLimit) * (limit * limit)));
+  }
+  return sliding;
 }
 
 // Sweeps over the points of a manifold each time it is visited. The four points of a face work against each other; a
@@ -164,6 +298,7 @@ inline void push(ContactRows* rows, uint32_t count, SolverBody* bodies, const Co
     const ContactTurn turn_a = contactTurn(ma, n, F8::load(r.turns_a)), turn_b = contactTurn(mb, n, F8::load(r.turns_b));
     const F8 bias_rate = F8::load(r.bias_rate);
     const F8 mass_scale = F8::load(r.mass_scale), impulse_scale = F8::load(r.impulse_scale);
+    const SlidingLanes sliding{slidingLanes(r)};
     for (uint32_t sweep = 0; sweep < kSweeps * r.num_points; ++sweep) {
       ContactPointRows& p = r.points[sweep % r.num_points];
       const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
@@ -180,89 +315,144 @@ inline void push(ContactRows* rows, uint32_t count, SolverBody* bodies, const Co
       impulse.store(p.normal_impulse);
       apply(c, (impulse - old) * n, arm_a, arm_b);
     }
+    if (anyTrue(sliding.mask)) solveFriction(c, n, sliding);
     c.store();
-  }
-}
-
-// The lanes of a batch that a kernel works on. What the others carry stays.
-struct AllLanes {
-  F8 choose(F8 changed, F8) const { return changed; }
-};
-struct SomeLanes {
-  F8 mask;
-  F8 choose(F8 changed, F8 old) const { return select(mask, changed, old); }
-};
-
-template <class Lanes>
-inline void relaxNormals(Batch& c, const V8& n, F8 inv_h, const Lanes& lanes) {
-  const Motion ma = loadMotion(c.a), mb = loadMotion(c.b);
-  const V8 shift = mb.dp - ma.dp;
-  const ContactTurn turn_a = contactTurn(ma, n, F8::load(c.rows.turns_a)),
-                    turn_b = contactTurn(mb, n, F8::load(c.rows.turns_b));
-  const F8 zero = F8::zero();
-  for (uint32_t i = 0; i < c.rows.num_points; ++i) {
-    ContactPointRows& p = c.rows.points[i];
-    const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
-    const F8 s = F8::load(p.separation) + dot(n, shift + (contactShift(turn_b, arm_b) - contactShift(turn_a, arm_a)));
-    const F8 vn = dot(n, relativeVelocity(c, arm_a, arm_b));
-    const F8 old = F8::load(p.normal_impulse);
-    const F8 impulse = lanes.choose(max(old - F8::load(p.normal_mass) * (vn + max(s, zero) * inv_h), zero), old);
-    impulse.store(p.normal_impulse);
-    max(impulse, F8::load(p.max_normal_impulse)).store(p.max_normal_impulse);
-    apply(c, (impulse - old) * n, arm_a, arm_b);
-  }
-}
-
-// Smaller eigenvalue of a symmetric 2 x 2 matrix.
-inline F8 smallerEigenvalue(F8 m11, F8 m12, F8 m22) {
-  const F8 difference = m11 - m22, twice = m12 + m12;
-  return F8::set(0.5f) * ((m11 + m22) - sqrt(difference * difference + twice * twice));
-}
-
-// What sticks is stopped at once by the 2 x 2 block. What slides must be braked against its velocity, but the block turns
-// the impulse away from that where the body also turns; there a mass that is the same both ways takes its place, the
-// largest for which the projection converges.
-template <class Lanes>
-inline void solveFriction(Batch& c, const V8& n, F8 spread, const Lanes& lanes) {
-  ContactRows& r = c.rows;
-  const V8 t1 = V8::load(r.tangent), t2 = cross(n, t1);
-  const V8 center_a = V8::load(r.center_a), center_b = V8::load(r.center_b);
-  const F8 friction = F8::load(r.friction);
-  for (uint32_t i = 0; i < r.num_points; ++i) {
-    ContactPointRows& p = r.points[i];
-    const V8 arm_a = frictionArm(center_a, V8::load(p.arm_a), spread);
-    const V8 arm_b = frictionArm(center_b, V8::load(p.arm_b), spread);
-    const V8 v = relativeVelocity(c, arm_a, arm_b);
-    const F8 v1 = dot(t1, v), v2 = dot(t2, v);
-    const F8 m11 = F8::load(p.tangent_mass[0]), m12 = F8::load(p.tangent_mass[1]),
-             m22 = F8::load(p.tangent_mass[2]);
-    const F8 old1 = F8::load(p.tangent_impulse[0]), old2 = F8::load(p.tangent_impulse[1]);
-    F8 x1 = old1 - (m11 * v1 + m12 * v2), x2 = old2 - (m12 * v1 + m22 * v2);
-    const F8 limit = friction * F8::load(p.normal_impulse);
-    const F8 slides = x1 * x1 + x2 * x2 > limit * limit;
-    const F8 mass = smallerEigenvalue(m11, m12, m22);
-    x1 = select(slides, old1 - mass * v1, x1);
-    x2 = select(slides, old2 - mass * v2, x2);
-    const F8 length2 = x1 * x1 + x2 * x2;
-    const F8 scale =
-        select(length2 > limit * limit, limit / max(sqrt(length2), F8::set(1e-30f)), F8::set(1.0f));
-    x1 = lanes.choose(scale * x1, old1), x2 = lanes.choose(scale * x2, old2);
-    x1.store(p.tangent_impulse[0]);
-    x2.store(p.tangent_impulse[1]);
-    apply(c, (x1 - old1) * t1 + (x2 - old2) * t2, arm_a, arm_b);
   }
 }
 
 inline void relax(ContactRows* rows, uint32_t count, SolverBody* bodies, const ContactSolveParams& params) {
-  const F8 inv_h = F8::set(params.inv_h), spread = F8::set(params.friction_spread);
+  const Bounce bounce{F8::set(params.inv_h), F8::set(params.restitution_threshold)};
   for (uint32_t k = 0; k < count; ++k) {
     Batch c(rows[k], bodies);
     const V8 n = V8::load(rows[k].normal);
     for (int sweep = 0; sweep < kSweeps; ++sweep) {
-      relaxNormals(c, n, inv_h, AllLanes{});
-      solveFriction(c, n, spread, AllLanes{});
+      relaxNormals(c, n, bounce, AllLanes{});
+      solveFriction(c, n, AllLanes{});
+      if (rows[k].rolling) resistTurning(c, n);
     }
     c.store();
+  }
+}
+
+// Points of a contact that hit are solved together, with their friction, in this many sweeps.
+inline constexpr int kImpactSweeps = 8;
+
+// An impact within the coming sub-step, by lane.
+struct Impact {
+  F8 hits;      // mask
+  F8 time;      // s, from the start of the sub-step
+  F8 approach;  // m/s, the fastest of its points
+};
+
+// A point on its way to the surface: separation s, normal velocity vn at the start of the sub-step.
+struct Approach {
+  F8 s, vn, surface_speed;  // m, m/s; the last one where the surfaces meet: v'^2 = v^2 - 2 a s
+};
+
+inline Approach approachOf(const Batch& c, const ContactPointRows& p, const V8& n, const ContactTurn& turn_a,
+                           const ContactTurn& turn_b, const V8& shift) {
+  const F8 zero = F8::zero(), fall = F8::load(c.rows.fall);
+  const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
+  const F8 s = F8::load(p.separation) + dot(n, shift + (contactShift(turn_b, arm_b) - contactShift(turn_a, arm_a)));
+  const F8 vn = dot(n, relativeVelocity(c, arm_a, arm_b));
+  return {s, vn, sqrt(max(vn * vn - F8::set(2.0f) * fall * max(s, zero), zero))};
+}
+
+// A point is taken to hit by the same measure by which push() would stop it.
+inline Impact findImpact(const Batch& c, const Approach (&points)[4], const ContactSolveParams& params) {
+  constexpr float kEarly = 1e-3f;  // of the way of a sub-step
+  const F8 zero = F8::zero(), h = F8::set(1.0f / params.inv_h), fall = F8::load(c.rows.fall);
+  const F8 may = laneMask(c.rows.bounces_in_order) & (F8::load(c.rows.restitution) > zero);
+  Impact impact{zero, F8::set(1.5f) * h, zero};
+  for (uint32_t i = 0; i < c.rows.num_points; ++i) {
+    const Approach& a = points[i];
+    const F8 exists = F8::load(c.rows.points[i].normal_mass) > zero;
+    const F8 reaches = a.s + h * (a.vn + fall * h) < F8::set(kEarly) * (h * (zero - a.vn));
+    const F8 hits = may & exists & (a.vn < F8::set(-params.restitution_threshold)) & reaches;
+    const F8 time = F8::set(2.0f) * max(a.s, zero) / max(a.surface_speed - a.vn, F8::set(1e-30f));
+    impact.time = select(hits, min(impact.time, time), impact.time);
+    impact.approach = select(hits, max(impact.approach, zero - a.vn), impact.approach);
+    impact.hits = impact.hits | hits;
+  }
+  return impact;
+}
+
+// Friction of an impact at a point; x: its impulses along the tangents so far.
+inline void rub(Batch& c, const ContactPointRows& p, const V8& n, F8 limit, F8 (&x)[2]) {
+  const ContactRows& r = c.rows;
+  const V8 t1 = V8::load(r.tangent), t2 = cross(n, t1);
+  const F8 spread = F8::load(r.friction_spread);
+  const V8 arm_a = frictionArm(V8::load(r.center_a), V8::load(p.arm_a), spread);
+  const V8 arm_b = frictionArm(V8::load(r.center_b), V8::load(p.arm_b), spread);
+  const V8 v = relativeVelocity(c, arm_a, arm_b);
+  const F8 mass = smallerEigenvalue(F8::load(p.tangent_mass[0]), F8::load(p.tangent_mass[1]), F8::load(p.tangent_mass[2]));
+  F8 x1 = x[0] - mass * dot(t1, v), x2 = x[1] - mass * dot(t2, v);
+  const F8 length = sqrt(x1 * x1 + x2 * x2);
+  const F8 scale = select(length > limit, limit / max(length, F8::set(1e-30f)), F8::set(1.0f));
+  x1 = scale * x1, x2 = scale * x2;
+  apply(c, (x1 - x[0]) * t1 + (x2 - x[1]) * t2, arm_a, arm_b);
+  x[0] = x1, x[1] = x2;
+}
+
+// The points that touch at the time of the impact leave with restitution times the speed at which they met.
+inline void strike(Batch& c, const V8& n, const Impact& impact, const Approach (&points)[4], F8 h) {
+  constexpr float kTogether = 0.02f;  // of the way of a sub-step
+  const F8 zero = F8::zero(), half = F8::set(0.5f), one = F8::set(1.0f);
+  const F8 fall = F8::load(c.rows.fall), e = F8::load(c.rows.restitution), friction = F8::load(c.rows.friction);
+  F8 impulse[4] = {zero, zero, zero, zero}, tangent[4][2] = {{zero, zero}, {zero, zero}, {zero, zero}, {zero, zero}};
+  for (int sweep = 0; sweep < kImpactSweeps; ++sweep) {
+    for (uint32_t i = 0; i < c.rows.num_points; ++i) {
+      const ContactPointRows& p = c.rows.points[i];
+      const Approach& a = points[i];
+      const F8 then = a.s + impact.time * (a.vn + half * (fall * impact.time));
+      const F8 takes_part = impact.hits & (then < F8::set(kTogether) * (h * impact.approach));
+      const F8 bounced = a.vn + (one + e) * a.surface_speed;
+      const F8 wanted = select(a.vn < zero, max(bounced, zero), zero);
+      const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
+      const F8 vn = dot(n, relativeVelocity(c, arm_a, arm_b));
+      const F8 found = max(impulse[i] - F8::load(p.normal_mass) * (vn - wanted), zero) & takes_part;
+      apply(c, (found - impulse[i]) * n, arm_a, arm_b);
+      impulse[i] = found;
+      rub(c, p, n, friction * found, tangent[i]);
+    }
+  }
+}
+
+// Moves a body to where it would have to start to be on its new way: the old one up to the impact was another.
+inline void moveBack(const Side& side, const Velocity& before, F8 time, uint32_t writable) {
+  Motion m = loadMotion(side);
+  const F8 half = F8::set(0.5f);
+  m.dp = m.dp - time * (side.velocity.v - before.v);
+  const V8 turn = (F8::zero() - half * time) * (side.velocity.w - before.w);
+  const V8 u = m.u + m.q * turn + cross(turn, m.u);
+  const F8 q = m.q - dot(turn, m.u);
+  const F8 scale = F8::set(1.0f) / sqrt(dot(u, u) + q * q);
+  float* rows[8];
+  for (int i = 0; i < 8; ++i) rows[i] = writable >> i & 1 ? side.bodies[i]->dp : nullptr;
+  const F8 t[8] = {m.dp.x, m.dp.y, m.dp.z, F8::zero(), scale * u.x, scale * u.y, scale * u.z, scale * q};
+  storeTransposed(t, rows);
+}
+
+inline void bounce(ContactRows* rows, uint32_t count, SolverBody* bodies, const ContactSolveParams& params) {
+  for (uint32_t k = 0; k < count; ++k) {
+    ContactRows& r = rows[k];
+    r.has_bounced = 0;
+    if (r.bounces_in_order == 0) continue;
+    Batch c(r, bodies);
+    const Motion ma = loadMotion(c.a), mb = loadMotion(c.b);
+    const V8 n = V8::load(r.normal), shift = mb.dp - ma.dp;
+    const ContactTurn turn_a = contactTurn(ma, n, F8::load(r.turns_a)), turn_b = contactTurn(mb, n, F8::load(r.turns_b));
+    Approach points[4];
+    for (uint32_t i = 0; i < r.num_points; ++i) points[i] = approachOf(c, r.points[i], n, turn_a, turn_b, shift);
+    const Impact impact = findImpact(c, points, params);
+    if (!anyTrue(impact.hits)) continue;
+    r.has_bounced = 1;
+    const Velocity before_a = c.a.velocity, before_b = c.b.velocity;
+    strike(c, n, impact, points, F8::set(1.0f / params.inv_h));
+    c.store();
+    const F8 time = impact.time & impact.hits;
+    moveBack(c.a, before_a, time, r.writable_a);
+    moveBack(c.b, before_b, time, r.writable_b);
   }
 }
 
@@ -289,18 +479,25 @@ inline F8 isPressed(Batch& c, const V8& n, F8 inv_h) {
   return least < zero;
 }
 
+// Resistance to turning is not remembered from step to step.
+inline F8 resistsTurning(const RollingRows& r) { return (F8::load(r.rolling) + F8::load(r.torsional)) > F8::zero(); }
+
 inline void settle(ContactRows* rows, uint32_t count, SolverBody* bodies, const ContactSolveParams& params) {
-  const F8 inv_h = F8::set(params.inv_h), spread = F8::set(params.friction_spread);
+  const F8 inv_h = F8::set(params.inv_h);
   for (uint32_t k = 0; k < count; ++k) {
-    if (rows[k].is_new == 0) continue;
+    if (rows[k].is_new == 0 && !rows[k].rolling) continue;
     Batch c(rows[k], bodies);
     const V8 n = V8::load(rows[k].normal);
-    const F8 settles = laneMask(rows[k].is_new) & comesSlowly(rows[k], params.restitution_threshold);
-    const SomeLanes lanes{settles & isPressed(c, n, inv_h)};
+    const F8 slow = comesSlowly(rows[k], params.restitution_threshold);
+    F8 settles = laneMask(rows[k].is_new) & slow & isPressed(c, n, inv_h);
+    if (rows[k].rolling) settles = settles | (slow & resistsTurning(*rows[k].rolling));
+    const SomeLanes lanes{settles};
     if (!anyTrue(lanes.mask)) continue;
+    const Bounce bounce{inv_h, F8::set(params.restitution_threshold)};
     for (int sweep = 0; sweep < kFirstSweeps; ++sweep) {
-      relaxNormals(c, n, inv_h, lanes);
-      solveFriction(c, n, spread, lanes);
+      relaxNormals(c, n, bounce, lanes);
+      solveFriction(c, n, lanes);
+      if (rows[k].rolling) resistTurning(c, n);
     }
     c.store();
   }

@@ -3,7 +3,8 @@
 
 namespace pfx {
 
-const ContactKernels kContactKernelsSse2 = {PFX_LANES::prepare, PFX_LANES::warmStart, PFX_LANES::settle,
-                                            PFX_LANES::push,    PFX_LANES::relax,     PFX_LANES::restitution, "sse2"};
+const ContactKernels kContactKernelsSse2 = {PFX_LANES::prepare, PFX_LANES::warmStart,   PFX_LANES::bounce,
+                                            PFX_LANES::settle,  PFX_LANES::push,        PFX_LANES::relax,
+                                            PFX_LANES::restitution, "sse2"};
 
 }  // namespace pfx

@@ -26,6 +26,11 @@ bool isNew(const ContactManifold& m) {
 
 }  // namespace
 
+float frictionSpread(const ContactConstraint& c) {
+  constexpr float kDisc = 2.0f / 3.0f, kPolygon = 0.6f;
+  return c.round_a || c.round_b ? kDisc : kPolygon;
+}
+
 void fillContactRows(ContactRows& rows, std::span<const ContactConstraint* const> constraints,
                      uint32_t idle_body) {
   uint32_t num_points = 0;
@@ -50,9 +55,18 @@ void fillContactRows(ContactRows& rows, std::span<const ContactConstraint* const
     rows.turns_a[lane] = c.round_a ? 0.0f : 1.0f;
     rows.turns_b[lane] = c.round_b ? 0.0f : 1.0f;
     rows.friction[lane] = c.friction;
+    rows.friction_spread[lane] = frictionSpread(c);
     rows.restitution[lane] = c.restitution;
     rows.is_new |= uint32_t(isNew(m)) << lane;
     for (int i = 0; i < m.num_points; ++i) fillPoint(rows.points[i], lane, m.points[i]);
+  }
+}
+
+void fillRollingRows(RollingRows& rows, std::span<const ContactConstraint* const> constraints) {
+  rows = {};
+  for (size_t lane = 0; lane < constraints.size(); ++lane) {
+    rows.rolling[lane] = constraints[lane]->rolling_resistance;
+    rows.torsional[lane] = constraints[lane]->torsional_resistance;
   }
 }
 

@@ -10,13 +10,6 @@ namespace {
 // Geometric stiffness counts where h^2 |K| is more than this share of the inertia, see stiffnessRatio.
 constexpr double kStiffnessShare = 0.1;
 
-constexpr double kStiffening = 8.0;
-constexpr int kMostStiffenings = 7;
-
-// Nothing is known of the load of a new contact; it may have to carry so many bodies. That matters for those of a few
-// millimetres, which would vanish in their neighbours before the load is known.
-constexpr double kExpectedLayers = 10.0;
-
 // No body leaves an island at more than this many times the largest speed before, and this speed (m/s) besides.
 constexpr double kMostGain = 4.0, kMostSpeed = 3.0;
 
@@ -67,19 +60,16 @@ void NewtonIsland::addContact(const ContactConstraint& constraint) {
   c.axis[2] = c.axis[0].cross(c.axis[1]);
   const DirectBody* body[2] = {&bodies_[c.body[0]], &bodies_[c.body[1]]};
   Vec3d center[2] = {Vec3d::Zero(), Vec3d::Zero()};
-  double load = 0.0;
   for (int i = 0; i < m.num_points; ++i) {
     NewtonPoint& p = c.points[i];
     p.arm[0] = body[0]->pose.orientation * m.points[i].local_a.cast<double>();
     p.arm[1] = body[1]->pose.orientation * m.points[i].local_b.cast<double>();
     for (int side = 0; side < 2; ++side) center[side] += p.arm[side] / m.num_points;
-    load += static_cast<double>(m.points[i].normal_impulse) / m.num_points;
   }
-  load = std::max(load, expectedLoad(c) / m.num_points);
+  const auto spread = static_cast<double>(frictionSpread(constraint));
   for (int i = 0; i < m.num_points; ++i) {
     NewtonPoint& p = c.points[i];
-    const Vec3d friction_arm[2] = {center[0] + params_.friction_spread * (p.arm[0] - center[0]),
-                                   center[1] + params_.friction_spread * (p.arm[1] - center[1])};
+    const Vec3d friction_arm[2] = {center[0] + spread * (p.arm[0] - center[0]), center[1] + spread * (p.arm[1] - center[1])};
     setTurns(p, c, friction_arm);
     p.separation = m.points[i].distance;
     double inverse_mass[2] = {0.0, 0.0};
@@ -90,7 +80,7 @@ void NewtonIsland::addContact(const ContactConstraint& constraint) {
                                 inverseMassAlong(*body[side], p.turn[side][2]));
     }
     p.impulse[0] = m.points[i].normal_impulse;
-    setStiffness(p, inverse_mass, load);
+    setStiffness(p, inverse_mass, weight_ * params_.h / m.num_points);
     const Vec3d friction = m.points[i].friction_impulse.cast<double>();
     p.impulse[1] = friction.dot(c.axis[1]), p.impulse[2] = friction.dot(c.axis[2]);
     rowSpeeds(c, p, velocityOf(c.body[0]), velocityOf(c.body[1]), p.speed);
@@ -104,23 +94,13 @@ void NewtonIsland::addContact(const ContactConstraint& constraint) {
   }
 }
 
-// N s, of kExpectedLayers of the lighter body.
-double NewtonIsland::expectedLoad(const NewtonContact& c) const {
-  double weight = HUGE_VAL;
-  for (int side = 0; side < 2; ++side) {
-    const DirectBody& b = bodies_[c.body[side]];
-    if (c.moves[side]) weight = std::min(weight, b.acceleration.norm() * params_.h / b.inv_mass);
-  }
-  return kExpectedLayers * weight;
-}
-
-// A load far above the weight of its bodies presses no deeper than a share of their size.
+// No contact is pressed in by more than a share of the size of its bodies, even by the weight of the whole island. What
+// it carries at the moment must not decide: the load would swing with its own stiffness.
 void NewtonIsland::setStiffness(NewtonPoint& p, const double (&inverse_mass)[2], double load) const {
   for (int k = 0; k < 2; ++k) p.stiffness[k] = 1.0 / (params_.give * inverse_mass[k]);
   const double size = std::min(p.arm[0].norm(), p.arm[1].norm());
   const double deepest = params_.max_overlap * size * params_.push_rate / params_.h;  // m/s, its push
-  // in large steps, so that the stiffness does not follow every change of the load
-  for (int i = 0; i < kMostStiffenings && load > p.stiffness[0] * deepest; ++i) p.stiffness[0] *= kStiffening;
+  p.stiffness[0] = std::max(p.stiffness[0], load / deepest);
 }
 
 void NewtonIsland::makeStructure() {
@@ -173,6 +153,8 @@ void NewtonIsland::begin(std::span<const RigidState> states, std::span<const Rig
     block_of_[i] = static_cast<uint32_t>(moving_.size());
     moving_.push_back(i);
   }
+  weight_ = 0.0;
+  for (uint32_t i : moving_) weight_ += bodies_[i].acceleration.norm() / bodies_[i].inv_mass;
   contacts_.clear();
   for (const ContactConstraint& c : island.contacts) addContact(c);
   joints_.clear();

@@ -30,7 +30,6 @@ struct NewtonParams {
   double max_overlap = 1e-3;           // share of the lever of a point that its load presses in at most
   double push_rate = 0.4;              // share of an overlap that a sub-step takes back
   double max_push_speed = 0.65;        // m/s
-  double friction_spread = 0.6;        // see ContactSolveParams
   double restitution_threshold = 0.5;  // m/s
 };
 
@@ -59,7 +58,6 @@ class NewtonIsland {
  private:
   uint32_t localOf(uint32_t body) const;
   void addContact(const ContactConstraint& constraint);
-  double expectedLoad(const NewtonContact& contact) const;
   void addJoint(const JointConstraint& constraint);
   void setStiffness(NewtonPoint& point, const double (&inverse_mass)[2], double load) const;
   void makeStructure();
@@ -98,6 +96,7 @@ class NewtonIsland {
   Vector<double> velocity_, free_velocity_, direction_, gradient_;  // six a body, by local index
   Vector<double> diagonal_, off_diagonal_, scratch_, x_;
   double tolerance_ = 0.0;  // m/s
+  double weight_ = 0.0;     // N, of the island
   bool factored_ = false;
 };
 

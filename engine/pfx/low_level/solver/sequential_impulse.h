@@ -2,8 +2,10 @@
 // Joints are in impulse_joint.h.
 //
 // Rows are set up from the velocities at the start of the step; the iterations gather changes of velocity in the bodies.
-// Position errors enter as a velocity that takes back a share of them (Baumgarte). Contacts have a circular friction
-// cone. Source: E. Catto, Iterative Dynamics with Temporal Coherence, GDC 2005.
+// Position errors of joints enter as a velocity that takes back a share of them (Baumgarte). For contacts that velocity is
+// solved apart and moves the bodies without staying in them: columns would gain energy from every overlap. Contacts have a
+// circular friction cone. Source: E. Catto, Iterative Dynamics with Temporal Coherence, GDC 2005; Modeling and Solving
+// Constraints, GDC 2009 (pseudo velocities).
 #pragma once
 
 #include "pfx/base_level/math/vector.h"
@@ -17,6 +19,8 @@ struct ImpulseBody {
   float dw[3];            // rad/s, world axes
   float pad;
   float inv_inertia[9];   // 1/(kg m^2), world axes
+  float push_v[3];        // m/s, for the motion of this step alone: takes back overlap
+  float push_w[3];        // rad/s
 };
 
 // A row along one direction at a point.
@@ -32,6 +36,8 @@ struct ImpulsePoint {
   float arm_a[3];  // m, world, from the centres of mass
   float arm_b[3];
   ImpulseRow rows[3];  // normal, two tangents
+  float push_rhs;      // N s, as rhs, for the push along the normal
+  float push[3];       // N s, gathered: normal, two tangents
 };
 
 // Two bodies that act on each other; one that a OneWay body meets is given as a copy without inverse mass.
@@ -58,5 +64,8 @@ void warmStart(ImpulsePair pair, const ImpulsePoint& point);
 
 // One iteration.
 void solveImpulses(ImpulsePair pair, float friction, ImpulsePoint& point);
+
+// One iteration over the pushes. Friction, of the impulses and pushes together, keeps them from moving anything sideways.
+void solvePush(ImpulsePair pair, float friction, ImpulsePoint& point);
 
 }  // namespace pfx

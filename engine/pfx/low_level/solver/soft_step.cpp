@@ -15,15 +15,10 @@ ContactSolveParams makeSolveParams(const SoftStepParams& p) {
           .moving = makeSoftness(f, p.contact_damping, p.h),
           .fixed = makeSoftness(2.0f * f, p.contact_damping, p.h),
           .max_push_speed = p.max_push_speed,
-          .friction_spread = p.friction_spread,
           .restitution_threshold = p.restitution_threshold};
 }
 
-uint32_t numLanes(std::span<const ContactConstraint* const> lanes) {
-  uint32_t n = 0;
-  while (n < lanes.size() && lanes[n]) ++n;
-  return n;
-}
+constexpr uint32_t kNoRolling = 0xffffffffu;
 
 template <class Fn>
 void forBodies(std::span<SolverBody> bodies, std::span<BodyMotion> motions, TaskManager& tasks, Fn&& fn) {
@@ -36,6 +31,9 @@ void forBodies(std::span<SolverBody> bodies, std::span<BodyMotion> motions, Task
 float surfaceSpeed(float approach, float separation, float acceleration) {
   return -std::sqrt(std::max(approach * approach - 2.0f * acceleration * separation, 0.0f));
 }
+
+// Impacts that a body may have in a sub-step. Between bodies that are pressed together they have no end.
+constexpr int kMostImpacts = 8;
 
 // Rounds in which guesses are forgotten; whatever still throws a body then goes with all others.
 constexpr int kMostRounds = 4;
@@ -69,21 +67,22 @@ void takeBackGuess(std::span<SolverBody> bodies, std::span<const BodyMotion> mot
   }
 }
 
-// Impacts of a batch count by the speed where the surfaces meet, not by that at the start of the step: with
-// acceleration a and separation s, v'^2 = v^2 - 2 a s.
-void measureAtSurface(ContactRows& rows, std::span<const BodyMotion> motions, float threshold) {
+// Acceleration along the normal of a lane.
+float fallOf(const ContactRows& rows, int lane, std::span<const BodyMotion> motions) {
   const auto acceleration = [&](int32_t body) -> Vec3 {
     const auto i = static_cast<size_t>(body);
     return i < motions.size() && motions[i].inertia ? motions[i].acceleration : Vec3(Vec3::Zero());
   };
+  const Vec3 n(rows.normal[0][lane], rows.normal[1][lane], rows.normal[2][lane]);
+  return n.dot(acceleration(rows.body_b[lane]) - acceleration(rows.body_a[lane]));
+}
+
+// Impacts that count at the end of the step do so by the speed where the surfaces meet, not by that at its start.
+void measureAtSurface(ContactRows& rows, int lane, float fall) {
   for (uint32_t i = 0; i < rows.num_points; ++i) {
     ContactPointRows& p = rows.points[i];
-    for (int lane = 0; lane < kRowLanes; ++lane) {
-      if (!(p.approach_speed[lane] < -threshold)) continue;
-      const Vec3 n(rows.normal[0][lane], rows.normal[1][lane], rows.normal[2][lane]);
-      const float along = n.dot(acceleration(rows.body_b[lane]) - acceleration(rows.body_a[lane]));
-      p.approach_speed[lane] = surfaceSpeed(p.approach_speed[lane], p.separation[lane], along);
-    }
+    if (p.approach_speed[lane] < 0.0f)
+      p.approach_speed[lane] = surfaceSpeed(p.approach_speed[lane], p.separation[lane], fall);
   }
 }
 
@@ -107,21 +106,44 @@ void SoftStep::makeBatches(std::span<const ContactConstraint> constraints) {
   if (rows_.size() < lanes_.size() / kRowLanes) rows_.resize(lanes_.size() / kRowLanes);
 }
 
+std::span<const ContactConstraint* const> SoftStep::lanesOf(uint32_t batch) const {
+  const auto lanes = std::span(lanes_).subspan(size_t(batch) * kRowLanes, kRowLanes);
+  size_t n = 0;
+  while (n < lanes.size() && lanes[n]) ++n;
+  return lanes.first(n);
+}
+
+void SoftStep::giveRollingRows() {
+  uint32_t count = 0;
+  rolling_of_.assign(lanes_.size() / kRowLanes, kNoRolling);
+  for (uint32_t b = 0; b < rolling_of_.size(); ++b)
+    if (std::ranges::any_of(lanesOf(b), [](const ContactConstraint* c) { return resistsTurning(*c); }))
+      rolling_of_[b] = count++;
+  if (rolling_.size() < count) rolling_.resize(count);
+}
+
 void SoftStep::prepare(std::span<const ContactConstraint> constraints, std::span<const uint8_t> is_dynamic,
                        std::span<SolverBody> bodies, const SoftStepParams& params, TaskManager& tasks) {
   solve_params_ = makeSolveParams(params);
   links_.clear();
-  for (const ContactConstraint& c : constraints) links_.push_back({c.solver_a, c.solver_b});
+  bool any_rolling = false;
+  for (const ContactConstraint& c : constraints) {
+    links_.push_back({c.solver_a, c.solver_b});
+    any_rolling |= resistsTurning(c);
+  }
   colouring_.build(links_, is_dynamic);
   makeBatches(constraints);
+  rolling_of_.clear();
+  if (any_rolling) giveRollingRows();
 
   const ContactKernels& kernels = contactKernels(params.simd);
   const uint32_t idle = static_cast<uint32_t>(bodies.size()) - 1;
   tasks.parallelFor(static_cast<uint32_t>(lanes_.size() / kRowLanes), kBatchGrain, [&](TaskRange range) {
     for (uint32_t b = range.begin; b < range.end; ++b) {
-      const auto lanes =
-          std::span<const ContactConstraint* const>(lanes_).subspan(size_t(b) * kRowLanes, kRowLanes);
-      fillContactRows(rows_[b], lanes.first(numLanes(lanes)), idle);
+      fillContactRows(rows_[b], lanesOf(b), idle);
+      if (rolling_of_.empty() || rolling_of_[b] == kNoRolling) continue;
+      rows_[b].rolling = &rolling_[rolling_of_[b]];
+      fillRollingRows(*rows_[b].rolling, lanesOf(b));
     }
     kernels.prepare(&rows_[range.begin], range.end - range.begin, bodies.data(), solve_params_);
   });
@@ -162,6 +184,52 @@ void SoftStep::forgetMisled() {
   }
 }
 
+void SoftStep::orderImpacts(std::span<const BodyMotion> motions) {
+  const auto is_jointed = [&](int32_t body) {
+    const auto i = static_cast<size_t>(body);
+    return i < motions.size() && motions[i].inertia && !motions[i].keeps_pace;
+  };
+  for (size_t b = 0; b < lanes_.size() / kRowLanes; ++b) {
+    ContactRows& rows = rows_[b];
+    for (int lane = 0; rows.has_restitution && lane < kRowLanes; ++lane) {
+      if (!(rows.restitution[lane] > 0.0f)) continue;
+      const float fall = fallOf(rows, lane, motions);
+      if (is_jointed(rows.body_a[lane]) || is_jointed(rows.body_b[lane])) {
+        measureAtSurface(rows, lane, fall);
+        continue;
+      }
+      rows.bounces_in_order |= 1u << lane;
+      rows.fall[lane] = fall;
+      for (uint32_t i = 0; i < rows.num_points; ++i) rows.points[i].approach_speed[lane] = 0.0f;
+    }
+  }
+}
+
+// Whether any two bodies may come to meet faster than the threshold, and bounce.
+bool SoftStep::mayBounce(std::span<const SolverBody> bodies, std::span<const BodyMotion> motions,
+                         const SoftStepParams& params) const {
+  const auto batches = std::span(rows_).first(lanes_.size() / kRowLanes);
+  if (std::ranges::none_of(batches, [](const ContactRows& r) { return r.has_restitution != 0; })) return false;
+  const float dt = params.h * static_cast<float>(params.substeps);
+  for (size_t i = 0; i < motions.size(); ++i) {
+    const SolverBody& b = bodies[i];
+    const float spin = motions[i].inertia ? std::sqrt(motions[i].inertia->body.trace() * b.inv_mass) : 0.0f;
+    const float speed = vectorOf(b.v).norm() + 2.0f * spin * vectorOf(b.w).norm() + dt * motions[i].acceleration.norm();
+    if (!motions[i].inertia ? vectorOf(b.w).squaredNorm() + vectorOf(b.v).squaredNorm() > 0.0f
+                            : speed > 0.5f * params.restitution_threshold)
+      return true;
+  }
+  return false;
+}
+
+void SoftStep::bounce(const ContactKernels& kernels, std::span<SolverBody> bodies, TaskManager& tasks) {
+  const auto batches = std::span(rows_).first(lanes_.size() / kRowLanes);
+  for (int i = 0; i < kMostImpacts; ++i) {
+    run(kernels.bounce, bodies, tasks);
+    if (std::ranges::none_of(batches, [](const ContactRows& r) { return r.has_bounced != 0; })) return;
+  }
+}
+
 void SoftStep::warmStart(const ContactKernels& kernels, std::span<SolverBody> bodies,
                          std::span<const BodyMotion> motions, JointStep& joints, TaskManager& tasks) {
   run(kernels.warm_start, bodies, tasks);
@@ -189,9 +257,13 @@ void SoftStep::push(const ContactKernels& kernels, std::span<SolverBody> bodies,
 void SoftStep::solve(std::span<SolverBody> bodies, std::span<BodyMotion> motions,
                      const SoftStepParams& params, JointStep& joints, TaskManager& tasks) {
   const ContactKernels& kernels = contactKernels(params.simd);
-  for (size_t b = 0; b < lanes_.size() / kRowLanes; ++b)
-    if (rows_[b].has_restitution) measureAtSurface(rows_[b], motions, params.restitution_threshold);
+  const bool may_bounce = mayBounce(bodies.first(motions.size()), motions, params);
+  if (may_bounce)
+    orderImpacts(motions);
+  else
+    for (size_t b = 0; b < lanes_.size() / kRowLanes; ++b) rows_[b].has_restitution = 0;
   for (int i = 0; i < params.substeps; ++i) {
+    if (may_bounce) bounce(kernels, bodies, tasks);
     forBodies(bodies, motions, tasks, [&](auto b, auto m) { integrateVelocities(b, m, params.h); });
     if (i == 0 && params.warm_start) warmStart(kernels, bodies, motions, joints, tasks);
     // not with joints, whose share of the load nobody knows yet
@@ -211,9 +283,7 @@ void SoftStep::solve(std::span<SolverBody> bodies, std::span<BodyMotion> motions
 void SoftStep::store(TaskManager& tasks) const {
   tasks.parallelFor(static_cast<uint32_t>(lanes_.size() / kRowLanes), kBatchGrain, [&](TaskRange range) {
     for (uint32_t b = range.begin; b < range.end; ++b) {
-      const auto lanes =
-          std::span<const ContactConstraint* const>(lanes_).subspan(size_t(b) * kRowLanes, kRowLanes);
-      storeContactImpulses(rows_[b], lanes.first(numLanes(lanes)));
+      storeContactImpulses(rows_[b], lanesOf(b));
     }
   });
 }

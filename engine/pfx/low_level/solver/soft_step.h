@@ -1,7 +1,11 @@
 // The default contact solver: sub-steps of soft constraints with a relax pass.
 //
-//   for each sub-step: integrate velocities -> [warm start -> settle] -> push -> integrate positions -> relax
-//   at the end:        restitution
+//   for each sub-step: impacts -> integrate velocities -> [warm start -> settle] -> push -> integrate positions -> relax
+//   at the end:        restitution of what joints hold
+//
+// Impacts are events: each contact that bounces is met at its own time, by the speed where the surfaces meet, and what it
+// throws against others meets those in the same sub-step. All of them together, at the end of a step, would stop a row of
+// balls that hit each other.
 //
 // The impulses of the last step are a guess. They balance each other as long as nothing has changed; where a body was
 // taken away or set elsewhere, what is left of them may be many times what the other bodies can bear (a light body that
@@ -35,7 +39,6 @@ struct SoftStepParams {
   float contact_damping = 1.0f;        // damping ratio of contacts
   // m/s at which an overlap opens at most. The ends of a row of n bodies inside each other add up to half of n of it.
   float max_push_speed = 0.65f;
-  float friction_spread = 0.6f;        // 0 .. 1, see ContactSolveParams
   float restitution_threshold = 0.5f;  // m/s
   SimdLevel simd = SimdLevel::Auto;
 };
@@ -62,6 +65,11 @@ class SoftStep {
     bool serial;          // the lanes of different batches share bodies
   };
   void makeBatches(std::span<const ContactConstraint> constraints);
+  void giveRollingRows();
+  void orderImpacts(std::span<const BodyMotion> motions);
+  bool mayBounce(std::span<const SolverBody> bodies, std::span<const BodyMotion> motions, const SoftStepParams& params) const;
+  void bounce(const ContactKernels& kernels, std::span<SolverBody> bodies, TaskManager& tasks);
+  std::span<const ContactConstraint* const> lanesOf(uint32_t batch) const;
   void warmStart(const ContactKernels& kernels, std::span<SolverBody> bodies, std::span<const BodyMotion> motions,
                  JointStep& joints, TaskManager& tasks);
   bool findMisled(std::span<const SolverBody> bodies, std::span<const BodyMotion> motions, JointStep& joints);
@@ -74,6 +82,8 @@ class SoftStep {
   Vector<const ContactConstraint*>
       lanes_;  // constraints in the order of the batches, null in idle lanes
   Vector<ContactRows> rows_;
+  Vector<RollingRows> rolling_;
+  Vector<uint32_t> rolling_of_;  // by batch: index into rolling_, or none; empty when no contact resists turning
   Vector<Group> groups_;
   Vector<uint8_t> misled_;  // by solver body
   ContactSolveParams solve_params_ = {};

@@ -130,6 +130,7 @@ TEST(WorldMemory, ABlockThatHoldsNoWorldOrIsNotAlignedIsRefused) {
   EXPECT_THROW(World({}, block.span().first(empty - BlockMemory::kAlignment)), std::length_error);
   EXPECT_THROW(World({}, block.span().first(1)), std::length_error);
   EXPECT_THROW(World({}, block.span().subspan(8)), std::invalid_argument);
+  EXPECT_THROW(World({}, Block(2 * empty).span().subspan(1)), std::invalid_argument);
 }
 
 TEST(WorldMemory, ASnapshotIsRestoredWithinTheBlock) {
