@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "pfx/base_level/collision/pair_table.h"
-#include "pfx/low_level/solver/soft_step.h"
+#include "pfx/low_level/solver/contact_setup.h"
 
 namespace pfx {
 namespace {
@@ -91,7 +91,7 @@ TEST(ManifoldQuality, FourPointsOfATurnedBoxKeepCentreAndNearlyTheAreaOfTheOverl
   // They lie in pairs opposite each other, whatever the angle.
   EXPECT_LT(worst_centre, 1e-5);
   // Friction acts at a share of the way to the corners, so that a twist is held as by the whole square.
-  const double spread = SoftStepParams{}.friction_spread;
+  const auto spread = static_cast<double>(frictionSpread(ContactConstraint{}));
   std::printf("friction radius as solved %.3f to %.3f of the exact one (0.9 to 1.15 wanted)\n", spread * least_radius,
               spread * most_radius);
   EXPECT_GT(spread * least_radius, 0.9);
