@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdio>
 #include <filesystem>
 #include <fstream>
 #include <nlohmann/json.hpp>
@@ -63,7 +64,7 @@ TEST(ConvexDistance, EveryHullPairOfTheExactTableHasItsSignedDistance) {
     }
   }
   EXPECT_EQ(overlapping, 37);
-  RecordProperty("worst_error_m", std::to_string(worst));
+  std::printf("  ACC-31 signed distance of 60 hull pairs, worst %.1e m (limit %.0e)\n", worst, kTolerance);
 }
 
 TEST(ConvexDistance, TheDistanceQueryAgreesWhereTheHullsAreApart) {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "pfx/base_level/collision/pair_table.h"
+#include "pfx/low_level/solver/soft_step.h"
 
 namespace pfx {
 namespace {
@@ -89,6 +90,12 @@ TEST(ManifoldQuality, FourPointsOfATurnedBoxKeepCentreAndNearlyTheAreaOfTheOverl
   EXPECT_GT(least_area, 0.7071 - 1e-4);
   // They lie in pairs opposite each other, whatever the angle.
   EXPECT_LT(worst_centre, 1e-5);
+  // Friction acts at a share of the way to the corners, so that a twist is held as by the whole square.
+  const double spread = SoftStepParams{}.friction_spread;
+  std::printf("friction radius as solved %.3f to %.3f of the exact one (0.9 to 1.15 wanted)\n", spread * least_radius,
+              spread * most_radius);
+  EXPECT_GT(spread * least_radius, 0.9);
+  EXPECT_LT(spread * most_radius, 1.15);
   // Four corners of equal load hold a twist better than the whole square does: sqrt 2 against 0.7652.
   EXPECT_LT(most_radius, 1.4142 / 0.7652 + 1e-3);
   EXPECT_GT(least_radius, 1.0);

@@ -135,15 +135,14 @@ void solveNatively(NativeWorld& w) {
         for (int k = 0; k < m.count; ++k) pfx::solveImpulses(pair, 0.6f, m.impulses[k]);
     });
   }
-  const auto overlaps = [](const NativeWorld::Manifold& m) {
-    return std::any_of(m.impulses, m.impulses + m.count, [](const pfx::ImpulsePoint& p) { return p.push_rhs > 0.0f; });
-  };
-  if (std::any_of(w.manifolds.begin(), w.manifolds.end(), overlaps)) {
-    for (int it = 0; it < kPushVisits * kIterations; ++it) {
-      each([](pfx::ImpulsePair pair, NativeWorld::Manifold& m) {
-        for (int k = 0; k < m.count; ++k) pfx::solvePush(pair, 0.6f, m.impulses[k]);
-      });
-    }
+  int sweeps = 0;
+  for (const NativeWorld::Manifold& m : w.manifolds)
+    for (int k = 0; k < m.count; ++k)
+      sweeps = std::max(sweeps, m.points[k].distance < -pfx::kSoftOverlap ? kPushVisits * kIterations : m.impulses[k].push_rhs > 0.0f ? 1 : 0);
+  for (int i = 0; i < sweeps; ++i) {
+    each([](pfx::ImpulsePair pair, NativeWorld::Manifold& m) {
+      for (int k = 0; k < m.count; ++k) pfx::solvePush(pair, 0.6f, m.impulses[k]);
+    });
   }
   for (size_t i = 1; i < w.states.size(); ++i) {
     w.states[i].linear_velocity += Eigen::Map<pfx::Vec3>(w.bodies[i].dv);

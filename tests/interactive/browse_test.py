@@ -113,6 +113,7 @@ class BrowserTest(unittest.TestCase):
     def pause(self):
         self.key("space")
         self.wait(lambda: "paused" in self.title())
+        time.sleep(0.5)
 
     def test_pause_step_and_step_back(self):
         self.pause()
@@ -164,6 +165,9 @@ class BrowserTest(unittest.TestCase):
         self.wait(lambda: self.picture() == plain)
 
     def click(self, x, y):
+        self.xdo("mousemove", str(x), str(y), "sleep", "0.3", "mousedown", "1", "sleep", "0.2", "mouseup", "1")
+
+    def click_at_once(self, x, y):
         self.xdo("mousemove", str(x), str(y), "mousedown", "1", "mouseup", "1")
 
     def open_scene(self, name):
@@ -197,6 +201,7 @@ class BrowserTest(unittest.TestCase):
         self.wait(lambda: self.selection() and self.selection()[0] != first)
 
     def quit_and_read_settings(self):
+        self.still_picture()  # clicks come one a frame, keys all at once: those before have been seen
         self.key("ctrl+q")
         self.assertEqual(self.browser.wait(PATIENCE), 0)
         return json.loads((self.folder / "vitrine" / "browse.json").read_text())
@@ -223,7 +228,7 @@ class BrowserTest(unittest.TestCase):
         """Clicks all check boxes; returns how often the picture changed."""
         last, changes = self.still_picture(), 0
         for x, y in self.overlay_boxes():
-            self.click(x, y)
+            self.click_at_once(x, y)
             self.xdo("mousemove", "1100", "790")
             now = self.picture_after_a_change(last)
             changes += now != last
@@ -247,7 +252,7 @@ class BrowserTest(unittest.TestCase):
         self.click(1160, 26)
         time.sleep(1)
         for x, y in self.overlay_boxes():
-            self.click(x, y)
+            self.click_at_once(x, y)
         self.assertEqual(self.quit_and_read_settings()["overlays"], "none")
 
     def test_stepping_back_over_a_throw_takes_it_back(self):

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cmath>
+#include <cstdio>
 #include <span>
 
 #include "pfx/high_level/world/world.h"
@@ -58,8 +59,9 @@ Outcome slide(const Slide& s, std::span<const Shape> ground) {
   return o;
 }
 
-// Vertical speeds, m/s. Over a seam the load passes from the contacts with one mesh to those with the other;
-// they give way by 17 micrometres under the weight, of which the body moves a fraction within a step.
+// Vertical speeds, m/s. A box over a seam rests on contacts with both meshes for a step or two, which give way by another
+// part of the 17 micrometres of four: it moves by 3 micrometres a step. That misses the 1e-4 wanted for every ground;
+// impulses passed on from mesh to mesh change it by a twentieth only.
 constexpr float kLevel = 1e-4f, kOverSeam = 2e-4f;
 
 const Geometry kBox = Box{Vec3(0.1f, 0.1f, 0.1f)};
@@ -69,6 +71,7 @@ const Geometry kCylinder = Cylinder{0.2f, 0.1f};
 
 void expectAsOnAPlane(std::span<const Shape> ground, float level) {
   const Shape plane{Box{Vec3(50, 1, 50)}, {Vec3(0, -1, 0), Quat::Identity()}};
+  float vertical = 0.0f, lateral = 0.0f, lost = 0.0f;
   for (const Geometry& shape : {kBox, kSphere, kCapsule, kCylinder}) {
     for (const float speed : {1.0f, 5.0f, 20.0f}) {
       for (const float friction : {0.0f, 0.5f}) {
@@ -80,13 +83,18 @@ void expectAsOnAPlane(std::span<const Shape> ground, float level) {
         // A body that comes to rest does so somewhere within a step: half mu g dt^2 of distance.
         EXPECT_NEAR(m.travelled, p.travelled, 1e-3f * p.travelled + 0.5f * friction * 9.8f / 3600.0f);
         EXPECT_NEAR(m.lowest, p.lowest, 1e-4f) << "no deeper than on the plane";
+        vertical = std::max(vertical, m.vertical);
         if (friction == 0.0f) {
+          lateral = std::max(lateral, m.lateral), lost = std::max(lost, std::abs(m.speed - speed) / speed);
           EXPECT_NEAR(m.speed, speed, 1e-4f * speed);
           EXPECT_LT(m.lateral, 1e-5f);
         }
       }
     }
   }
+  std::printf("  ACC-28 vertical %.3f mm/s (limit %.1f), without friction: lateral %.1e m, speed lost %.1e (limit 1e-4)\n",
+              static_cast<double>(1e3f * vertical), static_cast<double>(1e3f * level), static_cast<double>(lateral),
+              static_cast<double>(lost));
 }
 
 TEST(MeshSlide, everyShapeSlidesOverATriangulatedPlaneAsOverAPlane) {
@@ -139,6 +147,9 @@ TEST(MeshSlide, aSlabOver50000TrianglesRestsLevel) {
   const BodyId id = world.addBody(slab);
   for (int i = 0; i < 90; ++i) world.step(1.0f / 60.0f);
   const RigidState& state = world.states()[id.index];
+  std::printf("  slab over 50,000 triangles: off by %.1e m, tilted by %.1e rad\n",
+              static_cast<double>(std::abs(state.position.y() - 0.5f)),
+              static_cast<double>(2.0f * state.orientation.vec().norm()));
   EXPECT_NEAR(state.position.y(), 0.5f, 1e-3f);
   // One millimetre over its width of 16 m, as half an angle.
   EXPECT_LT(state.orientation.vec().norm(), 3e-5f);

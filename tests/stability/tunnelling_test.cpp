@@ -1,6 +1,8 @@
 // Nothing passes through anything: fast spheres against thin walls that stand, move, or are meshes.
 #include <gtest/gtest.h>
 
+#include <cstdio>
+
 #include "pfx/high_level/world/world.h"
 #include "pfx/util/mesh_builder/mesh_builder.h"
 
@@ -52,6 +54,7 @@ int countPassed(World& world, int count, float wall_speed) {
   int passed = 0;
   for (const BodyId& id : balls)
     passed += world.states()[id.index].position.x() > wall_speed * 0.5f + 0.5f * kRadius;
+  std::printf("  passed: %d of %d\n", passed, count);
   return passed;
 }
 

@@ -49,25 +49,31 @@ void solveContact(pfx::ImpulsePair bodies, PfxContactManifold& manifold) {
 }
 void solveJoint(pfx::ImpulsePair bodies, PfxJoint& joint) { pfx::solveImpulses(bodies, impulses(joint)); }
 
-bool overlaps(const PfxContactManifold& manifold) {
-  for (int k = 0; k < manifold.getNumContacts(); ++k)
-    if (manifold.getContactPoint(k).m_pushRhs > 0.0f) return true;
-  return false;
+// Sweeps over the pushes: none without overlap, one for what is taken back slowly.
+PfxUInt32 pushSweeps(const PfxSolveConstraintsParam& p, std::span<const Visit<PfxContactManifold>> contacts) {
+  PfxUInt32 sweeps = 0;
+  for (const Visit<PfxContactManifold>& v : contacts) {
+    for (int k = 0; k < v.item->getNumContacts(); ++k) {
+      const PfxContactPoint& point = v.item->getContactPoint(k);
+      if (point.m_distance < -pfx::kSoftOverlap) return kPushVisits * p.iteration;
+      if (point.m_pushRhs > 0.0f) sweeps = 1;
+    }
+  }
+  return sweeps;
 }
 void solvePush(pfx::ImpulsePair bodies, PfxContactManifold& manifold) {
   const PfxFloat friction = manifold.getCompositeFriction();
   for (int k = 0; k < manifold.getNumContacts(); ++k) pfx::solvePush(bodies, friction, impulses(manifold.getContactPoint(k)));
 }
 
-void solve(const PfxSolveConstraintsParam& p, const Selection& s) {
+void solve(const PfxSolveConstraintsParam& p, const Selection& s, PfxUInt32 push_sweeps) {
   forEachPair(s.joints, warmStartJoint);
   forEachPair(s.contacts, warmStartContact);
   for (PfxUInt32 i = 0; i < p.iteration; ++i) {
     forEachPair(s.joints, solveJoint);
     forEachPair(s.contacts, solveContact);
   }
-  if (std::none_of(s.contacts.begin(), s.contacts.end(), [](const auto& v) { return overlaps(*v.item); })) return;
-  for (PfxUInt32 i = 0; i < kPushVisits * p.iteration; ++i) forEachPair(s.contacts, solvePush);
+  for (PfxUInt32 i = 0; i < push_sweeps; ++i) forEachPair(s.contacts, solvePush);
 }
 
 template <class Item>
@@ -107,6 +113,7 @@ class Groups {
     distribute(p, jointsOf(p), first_joint_, joints_);
     return num_bodies_;
   }
+  std::span<const Visit<PfxContactManifold>> contactsOfAll() const { return {contacts_, first_contact_[num_bodies_]}; }
   Selection group(PfxUInt32 i) const {
     return {{contacts_ + first_contact_[i], contacts_ + first_contact_[i + 1]}, {joints_ + first_joint_[i], joints_ + first_joint_[i + 1]}};
   }
@@ -187,10 +194,12 @@ PfxInt32 pfxSolveConstraints(PfxSolveConstraintsParam& p, PfxTaskManager* taskMa
   pfx::TaskManager* pool = poolOf(taskManager);
   Groups groups(p);
   if (pfx::numWorkers(pool) == 1) {
-    solve(p, groups.all(p));
+    const Selection all = groups.all(p);
+    solve(p, all, pushSweeps(p, all.contacts));
   } else {
-    pfx::parallelFor(pool, groups.split(p), kBodyGrain, [&](pfx::TaskRange range) {
-      for (uint32_t i = range.begin; i < range.end; ++i) solve(p, groups.group(i));
+    const PfxUInt32 count = groups.split(p), push_sweeps = pushSweeps(p, groups.contactsOfAll());
+    pfx::parallelFor(pool, count, kBodyGrain, [&](pfx::TaskRange range) {
+      for (uint32_t i = range.begin; i < range.end; ++i) solve(p, groups.group(i), push_sweeps);
     });
   }
   pfx::parallelFor(pool, p.numRigidBodies, kBodyGrain, [&](pfx::TaskRange range) {

@@ -1,7 +1,7 @@
 // What drawing costs: recording a list, comparing pictures, whole frames. Bounds that the viewer is to keep:
 //   a list of 10,000 unchanged bodies under 1 ms, a comparison under 5 ms, a frame of 100 bodies under 25 ms,
 //   one of 1,000 boxes and 20,000 triangles under 70 ms (offscreen, two processors, wall time).
-// Processor time when this was written: 0.08 ms, 0.62 ms, 38 ms and 104 ms, of which the last two are shared by two
+// Processor time when this was written: 0.08 ms, 0.62 ms, 34 ms and 93 ms, of which the last two are shared by two
 // processors at about 0.55 of it each.
 #include <benchmark/benchmark.h>
 

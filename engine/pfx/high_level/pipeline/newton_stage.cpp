@@ -26,7 +26,7 @@ constexpr size_t kMostJointedBodies = 512;
 
 // Bodies of all islands of a step. A crowd of stacks is left to the sequential impulses as a whole: 196 pyramids of 55
 // boxes took seconds a step.
-constexpr size_t kMostBodiesInAll = 300;
+constexpr size_t kMostBodiesInAll = 512;
 
 // A contact is strained when it carries this many times the weight of its lighter body, or when the body on
 // top is this many times as heavy. It leans when its normal is farther from the vertical than this (cosine).

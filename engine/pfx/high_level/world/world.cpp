@@ -291,7 +291,7 @@ uint32_t World::numIslands() const {
 IslandView World::island(uint32_t index) const {
   impl_->listIslands();
   const auto bodies = impl_->islands.bodies(index);
-  const std::vector<RigidState>& states = impl_->store.states;
+  const auto& states = impl_->store.states;
   const auto restless = [&](uint32_t a, uint32_t b) { return states[a].sleep_count < states[b].sleep_count; };
   const RigidState& least_rested = states[*std::min_element(bodies.begin(), bodies.end(), restless)];
   const auto links = impl_->islands.links(index);

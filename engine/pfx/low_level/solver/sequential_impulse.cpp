@@ -8,9 +8,7 @@ namespace pfx {
 namespace {
 
 constexpr float kSlop = 0.001f;           // m, overlap that is left alone
-// Up to here it is taken back at 3 % of the speed: columns that rock find rest in it.
-constexpr float kSoftSlop = 0.003f;  // m
-constexpr float kSoftShare = 0.03f;
+constexpr float kSoftShare = 0.03f;       // of the speed, for overlap up to kSoftOverlap
 constexpr float kBounceThreshold = 0.5f;  // m/s, slower impacts do not bounce
 
 using Map3 = Eigen::Map<Vec3>;
@@ -53,7 +51,7 @@ float wantedSeparation(const ImpulseContactInput& in, float speed) {
 // Velocity of separation that this step alone has besides: a share of the overlap is taken back, a gap may close.
 float wantedPush(const ImpulseContactInput& in, float wanted) {
   if (in.distance > 0.0f) return -in.distance / in.time_step;
-  const float soft = std::clamp(-in.distance, kSlop, kSoftSlop) - kSlop, hard = std::max(0.0f, -in.distance - kSoftSlop);
+  const float soft = std::clamp(-in.distance, kSlop, kSoftOverlap) - kSlop, hard = std::max(0.0f, -in.distance - kSoftOverlap);
   return std::max(0.0f, in.separate_bias * (hard + kSoftShare * soft) / in.time_step - wanted);
 }
 

@@ -12,6 +12,9 @@
 
 namespace pfx {
 
+// Overlap up to here is taken back slowly: columns that rock find rest in it.
+inline constexpr float kSoftOverlap = 0.003f;  // m
+
 // What the solver keeps of a body. Inverse mass and inertia are zero for what does not give way.
 struct ImpulseBody {
   float dv[3];            // m/s, change since the start of the step
