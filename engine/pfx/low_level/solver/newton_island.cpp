@@ -162,12 +162,13 @@ void NewtonIsland::begin(std::span<const RigidState> states, std::span<const Rig
     block_of_[i] = static_cast<uint32_t>(moving_.size());
     moving_.push_back(i);
   }
-  weight_ = 0.0;
-  for (uint32_t i : moving_) weight_ += bodies_[i].acceleration.norm() / bodies_[i].inv_mass;
-  contacts_.clear();
-  for (const ContactConstraint& c : island.contacts) addContact(c);
   joints_.clear();
   for (const JointConstraint& c : island.joints) addJoint(c);
+  weight_ = 0.0;
+  for (uint32_t i : moving_) weight_ += bodies_[i].acceleration.norm() / bodies_[i].inv_mass;
+  for (const NewtonJoint& n : joints_) weight_ += strengthOf(n);
+  contacts_.clear();
+  for (const ContactConstraint& c : island.contacts) addContact(c);
   makeStructure();
 }
 

@@ -99,7 +99,7 @@ class NewtonIsland {
   Vector<double> velocity_, free_velocity_, direction_, gradient_;  // six a body, by local index
   Vector<double> diagonal_, off_diagonal_, scratch_, x_;
   double tolerance_ = 0.0;  // m/s
-  double weight_ = 0.0;     // N, of the island
+  double weight_ = 0.0;     // N, of the island, and the strength of its motors
   bool factored_ = false;
 };
 

@@ -1,6 +1,7 @@
 #include "pfx/low_level/solver/newton_joint.h"
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 namespace pfx {
@@ -95,6 +96,15 @@ void begin(NewtonJoint& n, std::span<const DirectBody> bodies, double h, int sub
     DirectRow& r = n.joint.row[k];
     r.impulse = h * static_cast<double>(n.joint.joint->axis[r.axis].force);
   }
+}
+
+double strengthOf(const NewtonJoint& n) {
+  double sum = 0.0;
+  for (int axis = 0; axis < kNumJointAxes; ++axis) {
+    const double most = n.joint.joint->axis[axis].motor_max_force;
+    if (std::isfinite(most)) sum += most / (axis < 3 ? 1.0 : n.joint.length);
+  }
+  return sum;
 }
 
 void linearize(NewtonJoint& n, std::span<const DirectBody> bodies, double h, bool push) {

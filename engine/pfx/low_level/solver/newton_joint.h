@@ -39,6 +39,9 @@ NewtonJoint makeNewtonJoint(const JointConstraint& constraint, const uint32_t (&
 // Once a step.
 void begin(NewtonJoint& joint, std::span<const DirectBody> bodies, double h, int substeps);
 
+// N that its motors may press with, after begin.
+double strengthOf(const NewtonJoint& joint);
+
 // Rows at the poses of the bodies, starting from the impulses of the last sub-step. push: errors of the
 // position are taken back in this sub-step; else only what opens further is held.
 void linearize(NewtonJoint& joint, std::span<const DirectBody> bodies, double h, bool push);
