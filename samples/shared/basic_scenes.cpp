@@ -9,12 +9,17 @@ namespace samples {
 using namespace pfx;
 
 void addPrimitives(World& world) {
+  constexpr float kLawn = 4.0f;  // 1/s, of what rolls, to a halt
   world.addBody({.name = "sphere",
                  .pose = {.position = Vec3(-5.0f, 5.0f, 0.0f)},
                  .shapes = {shape(Sphere{1.0f})},
-                 .angular_damping = 4.0f});  // as on a lawn: it rolls to a halt
+                 .angular_damping = kLawn});
   addBody(world, "box", Box{Vec3::Ones()}, Vec3(0.0f, 5.0f, 5.0f), 1.0f);
-  addBody(world, "capsule", Capsule{1.5f, 0.5f}, Vec3(5.0f, 5.0f, 0.0f), 2.0f);
+  world.addBody({.name = "capsule",
+                 .pose = {.position = Vec3(5.0f, 5.0f, 0.0f)},
+                 .shapes = {shape(Capsule{1.5f, 0.5f})},
+                 .mass = 2.0f,
+                 .angular_damping = kLawn});
   addBody(world, "cylinder", Cylinder{0.5f, 1.5f}, Vec3(0.0f, 10.0f, 0.0f), 3.0f);
   addBody(world, "barrel", world.keep(makeBarrel()), Vec3(0.0f, 15.0f, 0.0f), 3.0f);
   world.addBody({.name = "compound",

@@ -153,7 +153,7 @@ TEST(Snapshot, HasTheSameBytesOnEveryPlatform) {
   const std::vector<std::byte> bytes = take(world);
   const auto at = [&](size_t i) { return std::to_integer<int>(bytes[i]); };
   EXPECT_EQ(at(0), 'P');
-  EXPECT_EQ(at(8), 3) << "version, least byte first";
+  EXPECT_EQ(at(8), 4) << "version, least byte first";
   EXPECT_EQ(at(11), 0);
   EXPECT_EQ(at(12), 6) << "sections";
   EXPECT_EQ(at(16), 'W');

@@ -298,13 +298,15 @@ inline void push(ContactRows* rows, uint32_t count, SolverBody* bodies, const Co
     const ContactTurn turn_a = contactTurn(ma, n, F8::load(r.turns_a)), turn_b = contactTurn(mb, n, F8::load(r.turns_b));
     const F8 bias_rate = F8::load(r.bias_rate);
     const F8 mass_scale = F8::load(r.mass_scale), impulse_scale = F8::load(r.impulse_scale);
-    const SlidingLanes sliding{slidingLanes(r)};
+    const F8 slides = slidingLanes(r);
+    F8 jammed = zero;  // so deep that friction would only hold together what has to come apart
     for (uint32_t sweep = 0; sweep < kSweeps * r.num_points; ++sweep) {
       ContactPointRows& p = r.points[sweep % r.num_points];
       const V8 arm_a = V8::load(p.arm_a), arm_b = V8::load(p.arm_b);
       const F8 s = F8::load(p.separation) + dot(n, shift + (contactShift(turn_b, arm_b) - contactShift(turn_a, arm_a)));
       const F8 apart = s > zero;
       const F8 bias = s * select(apart, inv_h, bias_rate);
+      jammed = jammed | (bias < zero - fastest);
       const F8 vn = dot(n, relativeVelocity(c, arm_a, arm_b));
       const F8 old = F8::load(p.normal_impulse);
       const F8 mass = F8::load(p.normal_mass) * select(apart, one, mass_scale);
@@ -315,6 +317,7 @@ inline void push(ContactRows* rows, uint32_t count, SolverBody* bodies, const Co
       impulse.store(p.normal_impulse);
       apply(c, (impulse - old) * n, arm_a, arm_b);
     }
+    const SlidingLanes sliding{select(jammed, zero, slides)};
     if (anyTrue(sliding.mask)) solveFriction(c, n, sliding);
     c.store();
   }
