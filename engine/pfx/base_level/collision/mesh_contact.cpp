@@ -77,9 +77,13 @@ int collideMesh(const CollideInput& input, MeshContactScratch& scratch, Vector<C
 
   scratch.clusters.clear();
   const FacetContext context{mesh, body, input.margin, scratch.clusters};
+  scratch.facets.clear();
   visitFacets(mesh, body.bounds.grown(input.margin + mesh.max_thickness), [&](uint32_t first, uint32_t count) {
-    for (uint32_t f = first; f < first + count; ++f) collideFacet(context, f);
+    for (uint32_t f = first; f < first + count; ++f) scratch.facets.push_back(f);
   });
+  // A mesh that was written and built anew may have its facets in another order; its contacts are the same.
+  std::ranges::sort(scratch.facets, {}, [&](uint32_t f) { return mesh.source[f]; });
+  for (uint32_t f : scratch.facets) collideFacet(context, f);
 
   const size_t before = manifolds.size();
   for (const MeshCluster& cluster : scratch.clusters) {

@@ -44,6 +44,7 @@ struct MeshCluster {
 
 // Buffers that the search fills again and again; nothing is allocated once they have grown.
 struct MeshContactScratch {
+  Vector<uint32_t> facets;  // near the body
   Vector<MeshCluster> clusters;
   Vector<Vec3> vertices;         // of the body, mesh frame
   Vector<Plane> planes;          // of the body, mesh frame
