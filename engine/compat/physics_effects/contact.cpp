@@ -236,7 +236,9 @@ PfxInt32 checkPairs(const PfxConstraintPair* pairs, PfxUInt32 count, PfxUInt32 n
 }
 
 void reserveMeshContacts() {
+  constexpr size_t kMostFacets = 32768;  // of a mesh
   Scratch& scratch = scratchOfThread();
+  scratch.mesh.facets.reserve(kMostFacets);
   scratch.mesh.clusters.reserve(kMeshContactRoom);
   scratch.mesh.vertices.reserve(kMeshContactRoom);
   scratch.mesh.planes.reserve(kMeshContactRoom);
